@@ -1,0 +1,34 @@
+/* Philox4x32-10 (Salmon et al., SC11), counter based: stream = f(seed, purpose, id, part), so that no realisation, tile
+ * or test ever shares numbers with another and a new purpose never shifts an old one's. Wrapped as our own gsl_rng_type:
+ * Random123's shipped GSL wrapper carries its counter wrongly. */
+#ifndef FW_BASE_RANDOM_H
+#define FW_BASE_RANDOM_H
+
+#include <gsl/gsl_rng.h>
+#include <stdint.h>
+
+/* Append only: the numbers are part of every result. */
+typedef enum fw_purpose {
+    FW_STREAM_SCENARIO   = 1, /* id = realisation: concentration, speed, mix, cell */
+    FW_STREAM_FIELD      = 2, /* id = realisation, part = tile */
+    FW_STREAM_SERVICE    = 3, /* id = life number */
+    FW_STREAM_SECTIONING = 4, /* interval methods that draw */
+    FW_STREAM_TEST       = 99
+} fw_purpose;
+
+typedef struct fw_random {
+    uint32_t key[2], counter[4], block[4];
+    uint32_t n_used; /* words of block already given out; 4: block is stale */
+} fw_random;
+
+void fw_philox4x32_10(const uint32_t counter[4], const uint32_t key[2], uint32_t out[4]); /* the bare function */
+
+void     fw_random_stream(fw_random *r, uint64_t seed, fw_purpose purpose, uint64_t id, uint64_t part);
+uint32_t fw_random_u32(fw_random *r);
+double   fw_random_uniform(fw_random *r); /* open (0, 1), 53 bits, two words each */
+
+/* gsl_rng_alloc(fw_rng_philox()) then fw_rng_stream(); gsl_rng_set(r, s) is the stream (s, FW_STREAM_TEST, 0, 0). */
+const gsl_rng_type *fw_rng_philox(void);
+void                fw_rng_stream(gsl_rng *r, uint64_t seed, fw_purpose purpose, uint64_t id, uint64_t part);
+
+#endif
