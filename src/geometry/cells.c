@@ -1,0 +1,68 @@
+#include "geometry/cells.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+static size_t cell_of(const fw_cells *c, double x, double y)
+{
+    double fx = (x - c->x0) / c->size, fy = (y - c->y0) / c->size;
+    size_t ix = fx > 0 ? (size_t)fx : 0, iy = fy > 0 ? (size_t)fy : 0;
+    if (ix >= c->nx) ix = c->nx - 1;
+    if (iy >= c->ny) iy = c->ny - 1;
+    return iy * c->nx + ix;
+}
+
+fw_status fw_cells_build(fw_cells *c, size_t n, const double *x, const double *y, size_t stride, double size, fw_msg *m)
+{
+    double x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY;
+    bool   is_finite = true;
+    for (size_t i = 0; i < n; i++) {
+        x0 = fmin(x0, x[i * stride]), x1 = fmax(x1, x[i * stride]);
+        y0 = fmin(y0, y[i * stride]), y1 = fmax(y1, y[i * stride]);
+        is_finite = is_finite && isfinite(x[i * stride]) && isfinite(y[i * stride]);
+    }
+    if (n == 0) x0 = x1 = y0 = y1 = 0;
+    FW_CHECK(is_finite, m, FW_E_NUMERIC, "a floe's position is not finite");
+    while ((x1 - x0) / size * ((y1 - y0) / size) > 8192 || (x1 - x0) / size > 4096 || (y1 - y0) / size > 4096) size *= 2;
+    c->x0 = x0, c->y0 = y0, c->size = size;
+    c->nx = (size_t)((x1 - x0) / size) + 1, c->ny = (size_t)((y1 - y0) / size) + 1;
+    size_t n_cells = c->nx * c->ny;
+    FW_TRY(fw_grow(&c->start, &c->start_capacity, n_cells + 1, sizeof *c->start, "cell grid", m));
+    FW_TRY(fw_grow(&c->item, &c->item_capacity, n + 1, sizeof *c->item, "cell grid", m));
+    memset(c->start, 0, (n_cells + 1) * sizeof *c->start);
+    c->n_items = n;
+    for (size_t i = 0; i < n; i++) c->start[cell_of(c, x[i * stride], y[i * stride]) + 1]++;
+    for (size_t k = 0; k < n_cells; k++) c->start[k + 1] += c->start[k];
+    /* Filled from the back, so that start[k] ends where it has to and items of a cell stay ascending. */
+    for (size_t i = n; i-- > 0;) {
+        size_t k = cell_of(c, x[i * stride], y[i * stride]);
+        c->item[--c->start[k + 1]] = i;
+    }
+    /* start[k + 1] now holds the beginning of cell k: shift back by one. */
+    memmove(c->start, c->start + 1, n_cells * sizeof *c->start);
+    c->start[n_cells] = n;
+    return FW_OK;
+}
+
+void fw_cells_free(fw_cells *c)
+{
+    free(c->start);
+    free(c->item);
+    memset(c, 0, sizeof *c);
+}
+
+static void range(double at, double reach, double origin, double size, size_t n, size_t *from, size_t *to)
+{
+    double a = floor((at - reach - origin) / size), b = floor((at + reach - origin) / size) + 1;
+    *from = a > 0 ? (a < (double)n ? (size_t)a : n) : 0;
+    *to   = b > 0 ? (b < (double)n ? (size_t)b : n) : 0;
+}
+
+void fw_cells_range(const fw_cells *c, double x, double y, double reach, size_t *ix0, size_t *ix1, size_t *iy0, size_t *iy1)
+{
+    range(x, reach, c->x0, c->size, c->nx, ix0, ix1);
+    range(y, reach, c->y0, c->size, c->ny, iy0, iy1);
+}

@@ -1,0 +1,37 @@
+/* The books of a run: energy, momentum and counts. Every entry is added where the force acts; the checks compare sums that
+ * were reached on different ways, so a lost impulse or a wrong sign shows. */
+#ifndef FW_WORLD_LEDGER_H
+#define FW_WORLD_LEDGER_H
+
+typedef struct fw_ledger {
+    /* energy [J] */
+    double kinetic_change;  /* sum over steps of the change of kinetic energy of stepped floes */
+    double impulse_work;    /* sum of impulse times mean velocity, the same thing reached from the forces */
+    double impulse_size;    /* sum of |impulse| |mean velocity|: what both are measured against */
+    double drag_work;       /* quadrature of drag power over steps, and the exact change in free flight */
+    double inflow, outflow; /* kinetic and stored energy of floes that entered or left the awake set */
+    double dashpot, friction, dropped; /* dissipated; dropped: spring energy lost where tension is refused */
+    /* momentum [N s] */
+    double momentum_error;  /* sum over steps of |m dv - impulses| */
+    double momentum_size;   /* sum of |impulses| */
+    /* structure */
+    double normal_impulse;  /* [N s] */
+    double peak_force;      /* [N] */
+    double contact_time;    /* [s] with a force */
+    double hits;            /* first touches after 1 s apart */
+    /* range of the rigid-disc picture */
+    double max_overlap;       /* [m] */
+    double max_overlap_share; /* over the smaller radius */
+    double overlap_time;      /* [s] with any overlap beyond a tenth of the smaller radius */
+    /* cost */
+    double force_evaluations; /* one per contact and stage */
+    double steps, rejected, macro_steps, rebuilds, touches, late_touches, relinearised;
+} fw_ledger;
+
+double fw_ledger_energy_relative(const fw_ledger *l);
+double fw_ledger_momentum_relative(const fw_ledger *l);
+/* Balance of the trajectory: start + inflow + drag = dissipated + outflow + end, relative to what was dissipated.
+ * start, end: kinetic plus stored energy of the awake floes [J]. */
+double fw_ledger_energy_truncation(const fw_ledger *l, double start, double end);
+
+#endif

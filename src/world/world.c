@@ -1,0 +1,152 @@
+#include "world/world.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+fw_status fw_world_create(fw_world **out, double structure_radius, fw_msg *m)
+{
+    FW_TRY(fw_alloc(out, 1, sizeof **out, "world", m));
+    (*out)->structure_radius = structure_radius;
+    return FW_OK;
+}
+
+static void block_free(fw_block *b)
+{
+    free(b->x);
+    free(b->is_taken);
+    fw_cells_free(&b->cells);
+}
+
+void fw_world_destroy(fw_world *w)
+{
+    if (!w) return;
+    for (size_t i = 0; i < w->n_blocks; i++) block_free(&w->blocks[i]);
+    free(w->blocks);
+    free(w->bodies);
+    free(w->contacts);
+    free(w);
+}
+
+static double kinetic(const fw_body *b)
+{
+    double e = 0.5 * (b->vx * b->vx + b->vy * b->vy) / b->inv_mass;
+    return b->inv_inertia > 0 ? e + 0.5 * b->spin * b->spin / b->inv_inertia : e;
+}
+
+fw_status fw_world_add_body(fw_world *w, const fw_body *proto, fw_msg *m)
+{
+    FW_TRY(fw_grow(&w->bodies, &w->body_capacity, w->n_bodies + 1, sizeof *w->bodies, "awake floes", m));
+    fw_body *b  = &w->bodies[w->n_bodies++];
+    *b          = *proto;
+    b->ax = b->ay = b->as = b->step = 0;
+    b->t_wall = b->t_hit = -INFINITY;
+    b->n_closed          = 0;
+    b->is_touched        = false;
+    b->x_listed = b->x - w->drift, b->y_listed = b->y;
+    w->max_radius = fmax(w->max_radius, b->radius);
+    w->ledger.inflow += kinetic(b);
+    return FW_OK;
+}
+
+fw_status fw_world_add_block(fw_world *w, size_t n, const double *x, const double *y, const double *radius,
+                             const double *thickness, uint64_t first_name, fw_msg *m)
+{
+    FW_TRY(fw_grow(&w->blocks, &w->block_capacity, w->n_blocks + 1, sizeof *w->blocks, "blocks of ice", m));
+    fw_block *b = &w->blocks[w->n_blocks];
+    memset(b, 0, sizeof *b);
+    FW_TRY(fw_alloc(&b->x, 4 * n, sizeof *b->x, "block of ice", m));
+    fw_status s = fw_alloc(&b->is_taken, n, sizeof *b->is_taken, "block of ice", m);
+    b->y = b->x + n, b->radius = b->x + 2 * n, b->thickness = b->x + 3 * n;
+    b->n = b->n_left = n;
+    b->first_name    = first_name;
+    b->x_min = INFINITY, b->x_max = -INFINITY;
+    for (size_t i = 0; i < n; i++) {
+        b->x[i] = x[i], b->y[i] = y[i], b->radius[i] = radius[i], b->thickness[i] = thickness[i];
+        b->x_min = fmin(b->x_min, x[i]), b->x_max = fmax(b->x_max, x[i]);
+        b->max_radius = fmax(b->max_radius, radius[i]);
+    }
+    w->max_radius = fmax(w->max_radius, b->max_radius);
+    if (s == FW_OK) s = fw_cells_build(&b->cells, n, b->x, b->y, 1, fmax(8.0, b->max_radius), m);
+    if (s != FW_OK) {
+        block_free(b);
+        return s;
+    }
+    w->n_blocks++;
+    return FW_OK;
+}
+
+void fw_world_drop_blocks_beyond(fw_world *w, double x)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < w->n_blocks; i++) {
+        if (w->blocks[i].n_left == 0 || w->blocks[i].x_min + w->drift > x) block_free(&w->blocks[i]);
+        else w->blocks[kept++] = w->blocks[i];
+    }
+    w->n_blocks = kept;
+}
+
+static double stored(const fw_world *w, const fw_contact *c)
+{
+    double d = fw_world_overlap(w, c->i, c->j);
+    return d > 0 ? 0.5 * c->law.k * d * d : 0;
+}
+
+void fw_world_forget(fw_world *w, const bool *is_gone)
+{
+    /* Where a forgotten floe still presses on something its spring energy leaves with it. */
+    size_t kept = 0;
+    for (size_t k = 0; k < w->n_contacts; k++) {
+        fw_contact c = w->contacts[k];
+        if (is_gone[c.i] || (c.j >= 0 && is_gone[c.j])) {
+            w->ledger.outflow += stored(w, &c);
+            /* step = 0: the force is gone, so the acceleration that was kept is stale */
+            w->bodies[c.i].n_closed--, w->bodies[c.i].step = 0;
+            if (c.j >= 0) w->bodies[c.j].n_closed--, w->bodies[c.j].step = 0;
+        } else {
+            w->contacts[kept++] = c;
+        }
+    }
+    w->n_contacts = kept;
+    /* New place of each floe, floes only move down, so contacts can follow one by one. */
+    size_t next = 0;
+    for (size_t i = 0; i < w->n_bodies; i++) {
+        if (is_gone[i]) {
+            w->ledger.outflow += kinetic(&w->bodies[i]);
+            continue;
+        }
+        if (next != i) {
+            w->bodies[next] = w->bodies[i];
+            for (size_t k = 0; k < w->n_contacts; k++) {
+                if (w->contacts[k].i == (int32_t)i) w->contacts[k].i = (int32_t)next;
+                if (w->contacts[k].j == (int32_t)i) w->contacts[k].j = (int32_t)next;
+            }
+        }
+        next++;
+    }
+    w->n_bodies = next;
+}
+
+double fw_world_overlap(const fw_world *w, int32_t i, int32_t j)
+{
+    const fw_body *a = &w->bodies[i];
+    if (j == FW_WALL) return w->structure_radius + a->radius - hypot(a->x, a->y);
+    const fw_body *b = &w->bodies[j];
+    return a->radius + b->radius - hypot(a->x - b->x, a->y - b->y);
+}
+
+double fw_world_energy(const fw_world *w)
+{
+    double e = 0;
+    for (size_t i = 0; i < w->n_bodies; i++) e += kinetic(&w->bodies[i]);
+    for (size_t k = 0; k < w->n_contacts; k++) e += stored(w, &w->contacts[k]);
+    return e;
+}
+
+void fw_world_open_ledger(fw_world *w)
+{
+    memset(&w->ledger, 0, sizeof w->ledger);
+    w->energy_start = fw_world_energy(w);
+}

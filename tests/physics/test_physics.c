@@ -1,0 +1,90 @@
+#include <string.h>
+
+#include "check.h"
+#include "physics/abrasion.h"
+#include "physics/contact.h"
+#include "physics/drag.h"
+#include "physics/unbreakable.h"
+
+static void contact_constants(void **state)
+{
+    (void)state;
+    /* m = 4 kg, k = 9 N/m: critical c = 2 sqrt(k m) = 12, w = 1.5 by hand */
+    fw_contact_law       law = {9, 1, 0.1, 0.5};
+    fw_contact_constants c   = fw_contact_law_apply(&law, 4);
+    CHECK_NEAR(c.c, 12, 1e-14);
+    CHECK_NEAR(c.ct, 6, 1e-14);
+    CHECK_NEAR(c.omega, 1.5, 1e-15);
+    assert_true(fw_contact_normal(&c, 0.1, -1) == 0); /* never tension */
+    CHECK_NEAR(fw_contact_normal(&c, 0.1, 0.5), 6.9, 1e-14);
+    CHECK_NEAR(fw_contact_friction(&c, 10, 100), -1, 0);
+    CHECK_NEAR(fw_contact_friction(&c, 10, -100), 1, 0);
+    CHECK_NEAR(fw_contact_friction(&c, 10, 0.01), -0.06, 1e-15);
+}
+
+/* Classical fourth-order Runge-Kutta of m d'' = -(k d + c d') against the closed form. */
+static void critical_closed_form(void **state)
+{
+    (void)state;
+    double w = 30, v = 2, m = 2200, d = 0, u = v, dt = 1e-5 / 3, t = 0;
+    for (int i = 0; i < 12000; i++, t += dt) {
+        double a1 = -w * w * d - 2 * w * u, d2 = d + dt / 2 * u, u2 = u + dt / 2 * a1;
+        double a2 = -w * w * d2 - 2 * w * u2, d3 = d + dt / 2 * u2, u3 = u + dt / 2 * a2;
+        double a3 = -w * w * d3 - 2 * w * u3, d4 = d + dt * u3, u4 = u + dt * a3, a4 = -w * w * d4 - 2 * w * u4;
+        d += dt / 6 * (u + 2 * u2 + 2 * u3 + u4), u += dt / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+    }
+    CHECK_NEAR(fw_contact_critical_depth(w, v, t), d, 1e-12);
+    CHECK_RELATIVE(fw_contact_critical_force(m, w, v, t), m * (w * w * d + 2 * w * u), 1e-9);
+    CHECK_RELATIVE(fw_contact_critical_force(m, w, v, 0), 2 * m * w * v, 1e-15); /* the jump at touch */
+    assert_true(fw_contact_critical_force(m, w, v, 2 / w + 1e-9) == 0);
+    CHECK_NEAR(fw_contact_critical_depth(w, v, 4 / w), 0, 1e-15); /* overlap closes at wt = 4 */
+}
+
+/* The exact flow solves r' = -K r^2: checked as a law (semigroup) and by its limits. */
+static void drag_flow(void **state)
+{
+    (void)state;
+    for (double K = 1e-9; K < 100; K *= 7) {
+        fw_drag_flow whole = fw_drag_free(K, 1.7, 2.5), first = fw_drag_free(K, 1.7, 1.1), rest = fw_drag_free(K, first.speed, 1.4);
+        CHECK_RELATIVE(rest.speed, whole.speed, 1e-14);
+        CHECK_RELATIVE(first.distance + rest.distance, whole.distance, 1e-13);
+        /* dr/dt = -K r^2 by a central difference */
+        double slope = (fw_drag_free(K, 1.7, 1e-4).speed - fw_drag_free(K, 1.7, 0).speed) / 1e-4;
+        CHECK_RELATIVE(slope, -K * 1.7 * fw_drag_free(K, 1.7, 1e-4).speed, 1e-6 + 1e-12 / K);
+    }
+    CHECK_NEAR(fw_drag_free(0, 2, 3).distance, 6, 1e-15);
+    CHECK_NEAR(fw_drag_free(5, 0, 3).distance, 0, 0);
+    CHECK_NEAR(fw_drag_coefficient(1025, 10, 2.5, 0.5), 0.5 * 1025 * 10 * 1.25, 1e-9);
+}
+
+static void unbreakable_floes(void **state)
+{
+    (void)state;
+    CHECK_NEAR(fw_unbreakable_max_diameter(1.3), sqrt(158), 1e-12); /* sqrt(130 h - 11) by hand */
+    assert_true(fw_unbreakable_max_diameter(0.08) == 0);
+    assert_false(fw_unbreakable_class_exists(0.0854));
+    assert_true(fw_unbreakable_class_exists(0.5));
+    assert_false(fw_unbreakable_class_exists(8.05));
+    assert_false(fw_unbreakable_class_exists(NAN));
+}
+
+static void abrasion_laws(void **state)
+{
+    (void)state;
+    const fw_abrasion_law *b = fw_abrasion_find("bekker2011");
+    assert_non_null(b);
+    /* equation (1) of the source paper at sigma = 2 MPa, T = -10 degC, 3 km: 0.116 (10/2)^-1.121 x 3 mm */
+    CHECK_RELATIVE(fw_abrasion_rate(b, -10) * pow(2, b->exponent) * 3, 0.116 * pow(5, -1.121) * 3, 1e-14);
+    CHECK_RELATIVE(fw_abrasion_rate(b, -2) / fw_abrasion_rate(b, -10), pow(5, 1.121), 1e-13); /* x 6.1 in warmer ice */
+    assert_null(fw_abrasion_find("bekker"));
+    const fw_abrasion_entry *all;
+    size_t                   n = fw_abrasion_list(&all);
+    for (size_t i = 0; i < n; i++) assert_true(all[i].law.exponent > 0 && all[i].law.exponent < 2);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(contact_constants), cmocka_unit_test(critical_closed_form), cmocka_unit_test(drag_flow),
+                                       cmocka_unit_test(unbreakable_floes), cmocka_unit_test(abrasion_laws)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
