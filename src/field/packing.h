@@ -1,0 +1,61 @@
+/* Places floes in one tile without overlaps: tries at random first, relaxation where trying is hopeless.
+ *
+ * A packing is a workspace (memory is kept from tile to tile). It holds the tile's own floes, which relaxation may
+ * move, and obstacles, the floes of neighbour tiles, which stay. Own centres stay in the box [x0, x1) x [y0, y1); own
+ * floes and obstacles may stick out. When the box wraps in y it is its own neighbour above and below.
+ *
+ * Use: begin, own / obstacle for what is already placed, place for new ones (largest first), then read x and y.
+ *
+ * A new floe is put down uniformly in the box and refused when it overlaps another. After MAX_TRIES refusals it is put
+ * where it overlaps least of a few dozen places; when all floes of the call are down, overlapping pairs are pushed
+ * apart, one floe at a time, until the last overlap is gone; a floe that cannot be freed moves to another place.
+ * Overlap is tested on the stored doubles with a gap of 1e-6 m to spare. Everything is deterministic given the random
+ * stream. */
+#ifndef FW_FIELD_PACKING_H
+#define FW_FIELD_PACKING_H
+
+#include <stdint.h>
+
+#include "base/random.h"
+#include "field/cover.h"
+
+typedef struct fw_packing_box {
+    double x0, x1, y0, y1; /* [m] */
+    bool   wraps_y;
+} fw_packing_box;
+
+typedef struct fw_packing_cost {
+    uint64_t n_tries;   /* places tried */
+    uint64_t n_crowded; /* floes put down overlapping others */
+    uint64_t n_pushes;  /* times a floe was looked at to free it */
+    uint64_t n_moved;   /* floes moved elsewhere because pushing did not free them */
+} fw_packing_cost;
+
+typedef struct fw_packing {
+    fw_packing_box  box;
+    double          reach; /* obstacles further than this outside the box are ignored [m] */
+    fw_cover        cover;
+    size_t          n_own;           /* own floes are discs 0 .. n_own - 1 in the order they came, n_own <= n_most */
+    size_t          n_most, n_discs; /* obstacles are discs n_most .. n_discs - 1 */
+    double         *x, *y, *r;       /* (n_discs) [m] */
+    int32_t        *queue;           /* ring of own floes to be freed */
+    unsigned char  *is_queued;
+    size_t          x_capacity, y_capacity, r_capacity, queue_capacity, queued_capacity;
+    fw_packing_cost cost; /* since the workspace was zeroed */
+} fw_packing;
+
+/* Start a tile that will have at most n_most own floes. cell: side of the search cells [m]. */
+fw_status fw_packing_begin(fw_packing *p, const fw_packing_box *box, size_t n_most, double max_radius, double cell,
+                           fw_msg *m);
+/* A floe of the tile that an earlier call placed. */
+fw_status fw_packing_own(fw_packing *p, double x, double y, double r, fw_msg *m);
+/* A floe of a neighbour; ignored when it is out of reach. In a box that wraps it wraps, too. */
+fw_status fw_packing_obstacle(fw_packing *p, double x, double y, double r, fw_msg *m);
+/* Place n floes of radius r[0..n) as own floes (they follow the ones that were there). *n_left: floes that still
+ * overlap when everything was tried; 0 means success. FW_E_NOMEM otherwise only. */
+fw_status fw_packing_place(fw_packing *p, size_t n, const double *r, fw_random *random, size_t *n_left, fw_msg *m);
+/* Area of the own floes that overlap nothing over the area of the box: what a failed packing reached. */
+double    fw_packing_free_share(const fw_packing *p);
+void      fw_packing_free(fw_packing *p);
+
+#endif
