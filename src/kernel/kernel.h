@@ -1,0 +1,49 @@
+/* The kernel: moves the awake floes of a world through time.
+ *
+ *   macro-step:  near pairs -> islands (floes that can touch within it) -> each island on its own:
+ *                no contact closed: closed-form flight to the next touch
+ *                else:              ESDIRK sub-steps with error control for floes in contact, closed form for the others,
+ *                                   each step cut where the next touch is
+ *
+ * What is fixed during a run is fw_setup, what changes is fw_world and fw_wear. */
+#ifndef FW_KERNEL_KERNEL_H
+#define FW_KERNEL_KERNEL_H
+
+#include "abrasion/wear.h"
+#include "floewear/status.h"
+#include "kernel/method.h"
+#include "world/world.h"
+
+typedef struct fw_setup {
+    double           structure_radius; /* [m] */
+    double           speed;            /* of the current along +x [m/s] */
+    fw_contact_law   contact;
+    bool             has_floe_contact, has_drag, has_rotation, has_friction;
+    double           ice_density;      /* [kg/m3] of woken floes */
+    double           drag_per_area;    /* 1/2 rho_w Cf [kg/m3]: times D h gives fw_body.drag; 0 without drag */
+    /* numerics */
+    const fw_method *method;
+    double           tolerance;        /* local error of velocity per sub-step over velocity_scale */
+    double           velocity_scale;   /* [m/s] */
+    double           first_step;       /* after a touch, in 1/w */
+    double           growth;           /* largest factor from one sub-step to the next */
+    double           max_step;         /* in 1/w of the stiffest closed contact; INFINITY: none */
+    double           macro_length;     /* way of the current in one macro-step [m] */
+    double           skin;             /* neighbours are listed up to this gap [m] */
+    double           half_width;       /* of the strip: untouched floes outside are not there; INFINITY: all */
+    double           downstream;       /* floes past this x are forgotten [m]; INFINITY: none */
+    double           max_evaluations;  /* force evaluations allowed; INFINITY: no limit */
+} fw_setup;
+
+typedef struct fw_kernel fw_kernel;
+
+fw_status fw_kernel_create(fw_kernel **out, const fw_setup *setup, fw_msg *m);
+void      fw_kernel_destroy(fw_kernel *k);
+
+/* One macro-step, at most to t_end. The caller has put enough untouched ice into the world: up to
+ * fw_kernel_needs_ice_from (kernel frame). Errors: FW_E_NUMERIC (non-finite state, floe inside the structure, step
+ * limit) naming floe and time; FW_E_LIMIT; FW_E_NOMEM. */
+fw_status fw_kernel_step(fw_kernel *k, fw_world *w, fw_wear *wear, double t_end, fw_msg *m);
+double    fw_kernel_needs_ice_from(const fw_kernel *k, const fw_world *w);
+
+#endif

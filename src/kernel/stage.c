@@ -1,0 +1,242 @@
+/* One implicit stage: V = vr + h gamma A(xr + h gamma V, V) for all floes in contact at once.
+ *
+ * The geometry (normals, overlaps) is taken once at the predicted position; along the normal the overlap follows the
+ * unknown velocity linearly. What is left is piecewise linear (no tension, Coulomb cap) and is solved contact by contact,
+ * each exactly, in sweeps until nothing moves: one contact needs one sweep, a raft a handful. Impulses act on velocities
+ * at once, so momentum is exact at every sweep. */
+#include <math.h>
+
+#include "kernel/island.h"
+
+enum { MAX_SWEEPS = 400 };
+
+static double relative_speed(const fw_setup *s, const double v[3])
+{
+    double rx = s->speed - v[0];
+    return sqrt(rx * rx + v[1] * v[1]);
+}
+
+static void geometry(const fw_island *is, const fw_pair *p, bool is_stage, double *nx, double *ny, double *depth)
+{
+    const fw_member *a = &is->members[p->a];
+    double dx = is_stage ? a->X : a->x0, dy = is_stage ? a->Y : a->y0, reach = a->body->radius;
+    if (p->b == FW_WALL) {
+        reach += is->structure_radius;
+    } else {
+        const fw_member *b = &is->members[p->b];
+        dx -= is_stage ? b->X : b->x0, dy -= is_stage ? b->Y : b->y0;
+        reach += b->body->radius;
+    }
+    double r2 = dx * dx + dy * dy, r = sqrt(r2);
+    *nx = r > 0 ? dx / r : -1, *ny = r > 0 ? dy / r : 0;
+    *depth = (reach * reach - r2) / (reach + r); /* reach - r without cancellation */
+}
+
+/* Closing rate and slip of a pair for velocities va (member a) and vb (member b or NULL for the structure). */
+static inline double closing(const fw_pair *p, const double *va, const double *vb)
+{
+    double ux = va[0], uy = va[1];
+    if (vb) ux -= vb[0], uy -= vb[1];
+    return -(p->nx * ux + p->ny * uy);
+}
+static inline double slipping(const fw_pair *p, const double *va, const double *vb, double ra, double rb)
+{
+    double ux = va[0], uy = va[1], turn = ra * va[2];
+    if (vb) ux -= vb[0], uy -= vb[1], turn += rb * vb[2];
+    return p->nx * uy - p->ny * ux - turn; /* t = (-ny, nx) */
+}
+
+/* Add impulse (push along n, rub along t) to member a and take it from b. */
+static inline void shove(const fw_pair *p, fw_member *a, fw_member *b, double push, double rub)
+{
+    double jx = push * p->nx - rub * p->ny, jy = push * p->ny + rub * p->nx;
+    a->V[0] += jx * a->inv_mass, a->V[1] += jy * a->inv_mass;
+    a->V[2] -= rub * a->body->radius * a->body->inv_inertia;
+    if (!b) return;
+    b->V[0] -= jx * b->inv_mass, b->V[1] -= jy * b->inv_mass;
+    b->V[2] -= rub * b->body->radius * b->body->inv_inertia;
+}
+
+void fw_stage_forces_now(fw_island *is, fw_pair *p)
+{
+    const fw_member *a = &is->members[p->a], *b = p->b == FW_WALL ? NULL : &is->members[p->b];
+    geometry(is, p, false, &p->nx, &p->ny, &p->depth[0]);
+    p->rate[0]     = closing(p, a->v0, b ? b->v0 : NULL);
+    p->slip[0]     = slipping(p, a->v0, b ? b->v0 : NULL, a->body->radius, b ? b->body->radius : 0);
+    p->normal[0]   = fw_contact_normal(&p->law, p->depth[0], p->rate[0]);
+    p->friction[0] = fw_contact_friction(&p->law, p->normal[0], p->slip[0]);
+    p->dir[0][0] = p->nx, p->dir[0][1] = p->ny;
+}
+
+void fw_stage_start(fw_island *is)
+{
+    const fw_setup *set = is->setup;
+    for (size_t i = 0; i < is->n_members; i++) {
+        fw_member *m = &is->members[i];
+        if (!m->n_closed) continue;
+        double k      = m->body->drag * m->body->inv_mass * relative_speed(set, m->v0);
+        m->drag[0][0] = k * (set->speed - m->v0[0]), m->drag[0][1] = -k * m->v0[1];
+        m->a[0][0] = m->drag[0][0], m->a[0][1] = m->drag[0][1], m->a[0][2] = 0;
+        for (int q = 0; q < 3; q++) m->v[0][q] = m->v0[q];
+    }
+    for (size_t k = 0; k < is->n_pairs; k++) {
+        fw_pair *p = &is->pairs[k];
+        if (!p->is_closed) continue;
+        fw_stage_forces_now(is, p);
+        fw_member *a = &is->members[p->a], *b = p->b == FW_WALL ? NULL : &is->members[p->b];
+        double fx = p->normal[0] * p->nx - p->friction[0] * p->ny, fy = p->normal[0] * p->ny + p->friction[0] * p->nx;
+        a->a[0][0] += fx * a->body->inv_mass, a->a[0][1] += fy * a->body->inv_mass;
+        a->a[0][2] -= p->friction[0] * a->body->radius * a->body->inv_inertia;
+        if (b) {
+            b->a[0][0] -= fx * b->body->inv_mass, b->a[0][1] -= fy * b->body->inv_mass;
+            b->a[0][2] -= p->friction[0] * b->body->radius * b->body->inv_inertia;
+        }
+    }
+}
+
+/* Velocity without contact impulses, drag implicit with a given |u - v|: V = (vr + hg K u) / (1 + hg K). */
+static void free_velocity(const fw_setup *set, fw_member *m, double hg, double speed)
+{
+    m->drag_rate = m->body->drag * m->body->inv_mass * speed;
+    double f     = 1 / (1 + hg * m->drag_rate);
+    m->V[0]      = (m->vr[0] + hg * m->drag_rate * set->speed) * f;
+    m->V[1]      = m->vr[1] * f;
+    m->V[2]      = m->vr[2];
+    m->inv_mass  = m->body->inv_mass * f;
+}
+
+static void predict(fw_island *is, const fw_method *me, size_t s, double h)
+{
+    double hg = h * me->gamma;
+    for (size_t i = 0; i < is->n_members; i++) {
+        fw_member *m = &is->members[i];
+        if (!m->n_closed) continue;
+        double x = m->x0, y = m->y0, v[3] = {m->v0[0], m->v0[1], m->v0[2]};
+        for (size_t j = 0; j < s; j++) {
+            double ha = h * me->a[s][j];
+            x += ha * m->v[j][0], y += ha * m->v[j][1];
+            for (int q = 0; q < 3; q++) v[q] += ha * m->a[j][q];
+        }
+        m->xr = x, m->yr = y;
+        double ahead = (me->c[s] - me->c[s - 1]) * h;
+        for (int q = 0; q < 3; q++) {
+            m->vr[q] = v[q];
+            m->U[q]  = m->v[s - 1][q] + ahead * m->a[s - 1][q];
+        }
+        m->X = x + hg * m->U[0], m->Y = y + hg * m->U[1];
+        free_velocity(is->setup, m, hg, relative_speed(is->setup, m->U));
+    }
+}
+
+static double linearise(fw_island *is, size_t s, double hg)
+{
+    double stiffest = 0;
+    for (size_t k = 0; k < is->n_pairs; k++) {
+        fw_pair *p = &is->pairs[k];
+        if (!p->is_closed) continue;
+        fw_member *a = &is->members[p->a], *b = p->b == FW_WALL ? NULL : &is->members[p->b];
+        geometry(is, p, true, &p->nx, &p->ny, &p->depth_star);
+        p->rate_star = closing(p, a->U, b ? b->U : NULL);
+        p->alpha     = p->law.k * (p->depth_star - hg * p->rate_star);
+        p->beta      = p->law.c + p->law.k * hg;
+        p->w_normal  = a->inv_mass + (b ? b->inv_mass : 0);
+        p->w_slip    = p->w_normal + a->body->radius * a->body->radius * a->body->inv_inertia +
+                    (b ? b->body->radius * b->body->radius * b->body->inv_inertia : 0);
+        /* Start from the force of the stage before. */
+        p->push = hg * p->normal[s - 1], p->rub = hg * p->friction[s - 1];
+        shove(p, a, b, p->push, p->rub);
+        is->ledger->force_evaluations++;
+        stiffest = fmax(stiffest, p->law.omega);
+    }
+    return stiffest;
+}
+
+/* One sweep; returns the largest change of a velocity. */
+static double sweep(fw_island *is, double hg)
+{
+    double largest = 0;
+    for (size_t k = 0; k < is->n_pairs; k++) {
+        fw_pair *p = &is->pairs[k];
+        if (!p->is_closed) continue;
+        fw_member *a = &is->members[p->a], *b = p->b == FW_WALL ? NULL : &is->members[p->b];
+        double free = closing(p, a->V, b ? b->V : NULL) + p->push * p->w_normal;
+        double n    = (p->alpha + p->beta * free) / (1 + p->beta * hg * p->w_normal);
+        double push = n > 0 ? hg * n : 0;
+        double rub  = 0;
+        if (p->law.mu > 0) {
+            double slip = slipping(p, a->V, b ? b->V : NULL, a->body->radius, b ? b->body->radius : 0) - p->rub * p->w_slip;
+            double cap  = p->law.mu * push;
+            rub         = -hg * p->law.ct * slip / (1 + p->law.ct * hg * p->w_slip);
+            rub         = rub > cap ? cap : rub < -cap ? -cap : rub;
+        }
+        double dp = push - p->push, dr = rub - p->rub;
+        shove(p, a, b, dp, dr);
+        p->push = push, p->rub = rub;
+        largest = fmax(largest, fmax(fabs(dp) * p->w_normal, fabs(dr) * p->w_slip));
+    }
+    return largest;
+}
+
+/* Drag follows the solved velocity; impulses stay. Returns the largest change of a velocity. */
+static double renew_drag(fw_island *is, double hg)
+{
+    double largest = 0;
+    for (size_t i = 0; i < is->n_members; i++) {
+        fw_member *m = &is->members[i];
+        if (!m->n_closed || !(m->body->drag > 0)) continue;
+        double old_f = m->inv_mass / m->body->inv_mass, speed = relative_speed(is->setup, m->V);
+        double jx = m->V[0] / old_f - (m->vr[0] + hg * m->drag_rate * is->setup->speed), jy = m->V[1] / old_f - m->vr[1];
+        double old_x = m->V[0], old_y = m->V[1], spin = m->V[2];
+        free_velocity(is->setup, m, hg, speed);
+        double f = m->inv_mass / m->body->inv_mass;
+        m->V[0] += jx * f, m->V[1] += jy * f, m->V[2] = spin;
+        largest = fmax(largest, fmax(fabs(m->V[0] - old_x), fabs(m->V[1] - old_y)));
+    }
+    for (size_t k = 0; k < is->n_pairs; k++) {
+        fw_pair *p = &is->pairs[k];
+        if (!p->is_closed) continue;
+        const fw_member *a = &is->members[p->a], *b = p->b == FW_WALL ? NULL : &is->members[p->b];
+        double was   = p->w_normal;
+        p->w_normal  = a->inv_mass + (b ? b->inv_mass : 0);
+        p->w_slip += p->w_normal - was;
+    }
+    return largest;
+}
+
+void fw_stage_solve(fw_island *is, size_t s, double h)
+{
+    const fw_setup  *set = is->setup;
+    const fw_method *me  = set->method;
+    double           hg  = h * me->gamma;
+    double           enough = 1e-3 * set->tolerance * set->velocity_scale;
+    predict(is, me, s, h);
+    linearise(is, s, hg);
+    for (int n = 0; n < MAX_SWEEPS; n++) {
+        double change = sweep(is, hg);
+        if (is->n_closed == 1 || change < enough || n % 4 == 3) {
+            /* A lone contact is solved by one sweep. */
+            double drag = set->has_drag ? renew_drag(is, hg) : 0;
+            if (drag < enough && (change < enough || (is->n_closed == 1 && drag == 0))) break;
+        }
+    }
+    for (size_t i = 0; i < is->n_members; i++) {
+        fw_member *m = &is->members[i];
+        if (!m->n_closed) continue;
+        for (int q = 0; q < 3; q++) {
+            m->v[s][q] = m->V[q];
+            m->a[s][q] = (m->V[q] - m->vr[q]) / hg;
+        }
+        m->drag[s][0] = m->drag_rate * (set->speed - m->V[0]), m->drag[s][1] = -m->drag_rate * m->V[1];
+    }
+    for (size_t k = 0; k < is->n_pairs; k++) {
+        fw_pair *p = &is->pairs[k];
+        if (!p->is_closed) continue;
+        const fw_member *a = &is->members[p->a], *b = p->b == FW_WALL ? NULL : &is->members[p->b];
+        p->normal[s]   = p->push / hg;
+        p->friction[s] = p->rub / hg;
+        p->rate[s]     = closing(p, a->V, b ? b->V : NULL);
+        p->slip[s]     = slipping(p, a->V, b ? b->V : NULL, a->body->radius, b ? b->body->radius : 0);
+        p->depth[s]    = p->depth_star + hg * (p->rate[s] - p->rate_star);
+        p->dir[s][0] = p->nx, p->dir[s][1] = p->ny;
+    }
+}

@@ -1,0 +1,135 @@
+#include "abrasion/wear.h"
+#include "check.h"
+#include "geometry/lens.h"
+
+#define PI 3.14159265358979323846
+static const fw_abrasion_law LAWS[] = {{"bekker2011", 0.116, 1.121, true}, {"archard", 0.01, 1.0, false}};
+
+/* Values along an interval, sampled at TR-BDF2's instants. */
+static fw_wear_interval interval(double length, double since, double radius, double thickness)
+{
+    return (fw_wear_interval){.length = length, .since_touch = since, .n_stages = 3, .at = {0, 0.58578643762690495, 1},
+                              .radius = radius, .thickness = thickness};
+}
+
+/* A held contact: constant force, slip and overlap: everything by hand. */
+static void steady_rubbing(void **state)
+{
+    (void)state;
+    fw_wear w;
+    assert_int_equal(fw_wear_init(&w, 3.7, 360, 2, LAWS, NULL), FW_OK);
+    fw_wear_interval iv = interval(0.5, 100, 2.5, 0.5);
+    iv.depth[0] = iv.depth[1] = 0.02;
+    iv.angle[0] = iv.angle[1] = 1.0;
+    for (int s = 0; s < 3; s++) iv.normal[s] = 4e5, iv.slip[s] = -0.3;
+    fw_wear_collect(&w, &iv);
+    assert_true(w.sums[0].path == 0); /* closed during warm-up */
+    w.is_open = true;
+    fw_wear_collect(&w, &iv);
+    double b = fw_lens_chord(0.02, 2.5, 3.7), sigma = 4e5 / (b * 0.5), path = 0.3 * 0.5;
+    for (int l = 0; l < 2; l++) {
+        double m = LAWS[l].exponent;
+        CHECK_RELATIVE(w.sums[l].path, path, 1e-13);
+        CHECK_RELATIVE(w.sums[l].along, pow(sigma, m) * path, 1e-12);
+        CHECK_RELATIVE(w.sums[l].x_wall, pow(sigma, m) * path * b, 1e-12);
+        assert_true(w.sums[l].impact == 0 && w.sums[l].beyond == 0);
+    }
+    /* an arc wholly under the patch collects the patch's own load, less the chord-to-arc ratio */
+    double half = asin(b / 7.4);
+    size_t k    = (size_t)(1.0 * 180 / PI);
+    CHECK_RELATIVE(w.load[0][0][k], pow(sigma, 1.121) * path * b / (2 * 3.7 * half), 1e-12);
+    CHECK_RELATIVE(w.path[k], path * b / (2 * 3.7 * half), 1e-12);
+    assert_true(fw_wear_conservation(&w) < 1e-13);
+    assert_true(w.load[0][0][200] == 0);
+    fw_wear_free(&w);
+}
+
+/* Head-on touch with a steady slip put on: critically damped closed form; wear load by the substitution t = s^2 in 1e6 midpoints. */
+static void first_touch(void **state)
+{
+    (void)state;
+    double  m = 2209, om = sqrt(2e6 / m), v = 2, R = 1.25, h = 0.5, slip = 0.2, end = 1.2 / om, sum = 0, last = 0;
+    for (int i = 0; i < 1000000; i++) {
+        double s = (i + 0.5) * 1e-6 * sqrt(end), t = s * s, d = v * t * exp(-om * t);
+        double N = m * om * v * exp(-om * t) * (2 - om * t);
+        sum += pow(N / (h * fw_lens_chord(d, R, 3.7)), 1.121) * slip * 2 * s * 1e-6 * sqrt(end);
+    }
+    for (int n = 4; n <= 16; n *= 2) {
+        fw_wear w;
+        assert_int_equal(fw_wear_init(&w, 3.7, 360, 1, LAWS, NULL), FW_OK);
+        w.is_open = true;
+        for (int i = 0; i < n; i++) { /* graded steps t ~ i^2 */
+            double           t0 = end * i * i / (n * n), t1 = end * (i + 1) * (i + 1) / (n * n);
+            fw_wear_interval iv = interval(t1 - t0, t0, R, h);
+            iv.impact_left = 1;
+            for (int q = 0; q < 2; q++) {
+                double t = q ? t1 : t0;
+                iv.depth[q] = v * t * exp(-om * t), iv.rate[q] = v * exp(-om * t) * (1 - om * t);
+            }
+            for (int q = 0; q < 3; q++) {
+                double t = t0 + iv.at[q] * (t1 - t0);
+                iv.normal[q] = m * om * v * exp(-om * t) * (2 - om * t), iv.slip[q] = slip;
+            }
+            fw_wear_collect(&w, &iv);
+        }
+        double error = fabs(w.sums[0].along / sum - 1);
+        if (n > 4) assert_true(error < 0.3 * last || error < 1e-6); /* second order at least */
+        last = error;
+        if (n == 16) CHECK_RELATIVE(w.sums[0].along, sum, 2e-5);
+        CHECK_RELATIVE(w.sums[0].impact, w.sums[0].along, 1e-14);
+        fw_wear_free(&w);
+    }
+}
+
+/* A floe that lets go inside the step: force falls linearly through zero, path and load end there. */
+static void release_inside_a_step(void **state)
+{
+    (void)state;
+    fw_wear w;
+    assert_int_equal(fw_wear_init(&w, 3.7, 720, 1, &LAWS[1], NULL), FW_OK);
+    w.is_open           = true;
+    fw_wear_interval iv = interval(0.2, 50, 2.5, 0.5);
+    iv.depth[0] = iv.depth[1] = 0.01;
+    for (int s = 0; s < 3; s++) iv.normal[s] = 1e5 * (1 - 4 * iv.at[s]), iv.slip[s] = 1.5;
+    fw_wear_collect(&w, &iv);
+    CHECK_RELATIVE(w.sums[0].path, 1.5 * 0.05, 1e-9); /* zero at a quarter of 0.2 s */
+    CHECK_RELATIVE(w.sums[0].along, 1e5 / 2 / (fw_lens_chord(0.01, 2.5, 3.7) * 0.5) * 1.5 * 0.05, 1e-9);
+    fw_wear_free(&w);
+}
+
+/* Law: whatever moves over the ring, arcs add up to the patch integral; a rotated interval gives the rotated ring. */
+static void conserves_and_rotates(void **state)
+{
+    (void)state;
+    fw_wear w[2];
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(fw_wear_init(&w[i], 3.7, 360, 2, LAWS, NULL), FW_OK);
+        w[i].is_open = true;
+        uint32_t s = 7;
+        for (int k = 0; k < 500; k++) {
+            double r[8];
+            for (int q = 0; q < 8; q++) s = s * 1664525u + 1013904223u, r[q] = (double)(s >> 8) / (1 << 24);
+            fw_wear_interval iv = interval(0.3 * r[0], k % 3 ? 0.5 * r[1] : 0, 0.3 + 6 * r[2], 0.3 + r[3]);
+            iv.depth[0] = k % 3 ? 0.2 * r[4] : 0, iv.depth[1] = 0.2 * r[5];
+            iv.angle[0] = 6.28 * r[6] + (i ? 17 * PI / 180 : 0), iv.angle[1] = iv.angle[0] + r[7] - 0.5;
+            iv.impact_left = r[1] - 0.5;
+            for (int q = 0; q < 3; q++) iv.normal[q] = 1e6 * (r[q] - 0.2), iv.slip[q] = 2 * r[q + 3] - 1;
+            fw_wear_collect(&w[i], &iv);
+        }
+        assert_true(fw_wear_conservation(&w[i]) < 1e-12);
+    }
+    for (size_t k = 0; k < 360; k++) {
+        CHECK_RELATIVE(w[1].load[0][0][(k + 17) % 360], w[0].load[0][0][k], 1e-9);
+        CHECK_RELATIVE(w[1].path[(k + 17) % 360], w[0].path[k], 1e-9);
+        assert_true(w[0].load[0][1][k] <= w[0].load[0][0][k] && w[0].load[0][2][k] <= w[0].load[0][0][k]);
+    }
+    fw_wear_free(&w[0]);
+    fw_wear_free(&w[1]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(steady_rubbing), cmocka_unit_test(first_touch), cmocka_unit_test(release_inside_a_step),
+                                       cmocka_unit_test(conserves_and_rotates)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
