@@ -1,0 +1,124 @@
+/* floewear/scenario.h: everything one realisation depends on, as plain data in SI units and radians.
+ *
+ * fw_model     what is fixed for a whole campaign: structure, ice, contact, water, effects, window, accuracy
+ * fw_scenario  what changes from realisation to realisation: seed, id, concentration, speed, thickness mix
+ * fw_site      where scenarios come from: the laws of speed, concentration, direction, temperature, mixes
+ *
+ * Temperature and current direction never enter a simulation: temperature only multiplies the wear and a disc looks the
+ * same from every side, so both are integrated exactly after the run (study). */
+#ifndef FLOEWEAR_SCENARIO_H
+#define FLOEWEAR_SCENARIO_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "floewear/distribution.h"
+#include "floewear/status.h"
+
+enum { FW_MAX_CLASSES = 16, FW_MAX_MIXES = 16, FW_MAX_LAWS = 4 };
+
+/* Effects that a scene may switch; one bit each. The table of names, reasons and rules is src/effects/effects.h. */
+typedef enum fw_effect_bit {
+    FW_EFFECT_FLOE_CONTACT = 1u << 0,
+    FW_EFFECT_FRICTION     = 1u << 1,
+    FW_EFFECT_ROTATION     = 1u << 2,
+    FW_EFFECT_FORM_DRAG    = 1u << 3
+} fw_effect_bit;
+enum { FW_EFFECTS_CORE = 0xf };
+
+typedef struct fw_thickness_class {
+    double thickness; /* [m], 0.0855 .. 8.04 (4h <= sqrt(130h - 11), Lindseth 2013) */
+    double share;     /* of the floes, or of the ice area when by_area; sums to 1 over the mix */
+} fw_thickness_class;
+
+typedef struct fw_thickness_mix {
+    double             probability; /* of this mix; sums to 1 over the mixes */
+    bool               by_area;
+    size_t             n_classes;
+    fw_thickness_class classes[FW_MAX_CLASSES]; /* ascending thickness */
+} fw_thickness_mix;
+
+typedef enum fw_size_law {
+    FW_SIZE_UNIFORM,   /* D uniform in [4h, sqrt(130h - 11)] */
+    FW_SIZE_POWER_LAW, /* density ~ D^-size_a there */
+    FW_SIZE_LOGNORMAL  /* ln D normal (size_a [ln m], size_b), truncated there */
+} fw_size_law;
+
+typedef struct fw_abrasion_law {
+    char   name[24];    /* "bekker2011", "archard", "power" */
+    double coefficient; /* a: rate = a (sigma / |T|)^exponent [mm/km], sigma in MPa, T in degC */
+    double exponent;    /* m, 0 < m < 2 */
+    bool   uses_temperature; /* false: rate = a sigma^exponent */
+} fw_abrasion_law;
+
+/* Factor that turns a law's wear load [MPa^m km] into depth [mm] at temperature T [degC]. */
+double fw_abrasion_rate(const fw_abrasion_law *law, double temperature);
+
+typedef struct fw_model {
+    double structure_radius; /* [m] */
+    double ice_density;      /* [kg/m3] */
+    double water_density;    /* [kg/m3] */
+    double form_drag;        /* Cf on the side area D h [-] */
+    double stiffness;        /* k [N/m] */
+    double damping_ratio;    /* zeta [-]: c = zeta 2 sqrt(k m_eff) */
+    double friction;         /* mu [-] */
+    double slip_damping_ratio; /* ct = slip_damping_ratio c [-] */
+    uint32_t effects;          /* fw_effect_bit set */
+
+    size_t          n_laws;
+    fw_abrasion_law laws[FW_MAX_LAWS]; /* the first one governs stop rule and default report */
+
+    size_t           n_mixes;
+    fw_thickness_mix mixes[FW_MAX_MIXES];
+    fw_size_law      size_law;
+    double           size_a, size_b;
+
+    double window;     /* [s] */
+    double warm_up;    /* [s]; < 0: chosen by the realisation ("auto") */
+    double accuracy;   /* wanted relative discretisation error of a window's depth, 1e-4 .. 0.1 */
+    size_t n_arcs;     /* of the ring, >= 72; default 360 */
+    double strip_width;/* [m]; <= 0: auto (100 m) */
+    double downstream; /* floes are forgotten beyond this x [m]; <= 0: auto */
+    double plain_step; /* > 0: the plain every-floe method at this step [s], for benchmarks; 0: the kernel proper */
+} fw_model;
+
+typedef struct fw_scenario {
+    uint64_t seed;          /* of the campaign */
+    uint64_t id;            /* of the realisation, 0 .. */
+    double   concentration; /* 0 .. 0.65 [-] */
+    double   speed;         /* of the current [m/s], > 0 */
+    uint32_t mix;           /* index into fw_model.mixes */
+    uint32_t cell;          /* index into fw_site.cells when the site has a joint table, else 0: names the direction law */
+} fw_scenario;
+
+/* One cell of a joint site table: a value of (speed, concentration, thickness) with its share of time and the law of
+ * direction inside it. */
+typedef struct fw_site_cell {
+    double          probability;
+    double          speed, concentration;
+    uint32_t        mix;       /* index into fw_model.mixes */
+    fw_distribution direction; /* where the current flows TO, degrees clockwise from north */
+} fw_site_cell;
+
+typedef struct fw_site {
+    fw_distribution speed;         /* [m/s] */
+    fw_distribution concentration; /* [-] */
+    fw_distribution direction;     /* [deg], flows TO, clockwise from north; integrated, not sampled */
+    fw_distribution temperature;   /* [degC], < 0; integrated, not sampled */
+    double          temperature_floor; /* smallest |T| allowed [K], default 1.8 */
+    size_t          n_cells;       /* > 0: joint table; then speed, concentration, direction above are unused */
+    fw_site_cell   *cells;         /* (n_cells), owned */
+} fw_site;
+
+/* The direction law that a scenario's window belongs to. */
+static inline const fw_distribution *fw_site_direction(const fw_site *s, const fw_scenario *c)
+{
+    return s->n_cells ? &s->cells[c->cell].direction : &s->direction;
+}
+
+void      fw_model_defaults(fw_model *m); /* the source paper's Raahe example */
+fw_status fw_model_check(const fw_model *m, fw_msg *msg);
+void      fw_site_free(fw_site *s);
+
+#endif

@@ -1,0 +1,23 @@
+/* What a wanted accuracy means in numerics: one table, measured. */
+#ifndef FW_REALISATION_ACCURACY_H
+#define FW_REALISATION_ACCURACY_H
+
+#include "floewear/scenario.h"
+#include "kernel/kernel.h"
+
+/* The kernel's set-up for a model, a current speed [m/s] and the model's accuracy. */
+void fw_accuracy_setup(fw_setup *s, const fw_model *m, double speed, double velocity_scale);
+
+/* Where "auto" stands in the model. */
+double fw_accuracy_strip_width(const fw_model *m);
+double fw_accuracy_downstream(const fw_model *m);
+double fw_accuracy_warm_up(const fw_model *m, double speed);
+
+/* Every choice as a line of text: name, value, how it was found (for `floewear plan`). Returns the number of lines. */
+typedef struct fw_accuracy_line {
+    const char *name, *unit, *why;
+    double      value;
+} fw_accuracy_line;
+size_t fw_accuracy_lines(const fw_model *m, double speed, fw_accuracy_line *lines, size_t capacity);
+
+#endif

@@ -1,0 +1,83 @@
+/* Defaults and checks of a model. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "floewear/realisation.h"
+#include "physics/abrasion.h"
+#include "physics/unbreakable.h"
+
+void fw_model_defaults(fw_model *m)
+{
+    *m = (fw_model){
+        .structure_radius = 3.7,  /* Raahe lighthouse, 7.4 m: source paper, table 1 */
+        .ice_density      = 900,
+        .water_density    = 1025,
+        .form_drag        = 10,   /* source paper, table 2; on D h: this project's reading */
+        .stiffness        = 2e6,  /* source paper, table 2 */
+        .damping_ratio    = 1,    /* "critical damping coefficient" */
+        .friction         = 0.1,  /* source paper, table 1 */
+        .slip_damping_ratio = 1,
+        .effects          = FW_EFFECTS_CORE,
+        .n_laws           = 1,
+        .n_mixes          = 1,
+        .size_law         = FW_SIZE_UNIFORM,
+        .window           = 3 * 3600,
+        .warm_up          = -1,
+        .accuracy         = 0.01,
+        .n_arcs           = 360,
+        .strip_width      = -1,
+        .downstream       = -1,
+    };
+    m->laws[0]              = *fw_abrasion_find("bekker2011");
+    fw_thickness_mix *x     = &m->mixes[0];
+    x->probability          = 1;
+    x->n_classes            = 5;
+    static const double H[] = {0.5, 0.7, 0.9, 1.1, 1.3}; /* source paper: one fifth each */
+    for (size_t i = 0; i < 5; i++) x->classes[i] = (fw_thickness_class){H[i], 0.2};
+}
+
+#define NEED(cond, ...) FW_CHECK(cond, msg, FW_E_ARG, __VA_ARGS__)
+static bool is_in(double v, double low, double high) { return v >= low && v <= high; } /* false for NaN */
+
+fw_status fw_model_check(const fw_model *m, fw_msg *msg)
+{
+    NEED(is_in(m->structure_radius, 0.05, 500), "structure radius %g m: wanted 0.05 to 500 m", m->structure_radius);
+    NEED(is_in(m->ice_density, 100, 1100), "ice density %g kg/m3: wanted 100 to 1100", m->ice_density);
+    NEED(is_in(m->water_density, 100, 2000), "water density %g kg/m3: wanted 100 to 2000", m->water_density);
+    NEED(is_in(m->form_drag, 0, 1000), "form drag %g: wanted 0 to 1000", m->form_drag);
+    NEED(is_in(m->stiffness, 1e3, 1e12), "contact stiffness %g N/m: wanted 1e3 to 1e12", m->stiffness);
+    NEED(is_in(m->damping_ratio, 0, 100), "damping ratio %g: wanted 0 to 100", m->damping_ratio);
+    NEED(is_in(m->friction, 0, 10), "friction %g: wanted 0 to 10", m->friction);
+    NEED(is_in(m->slip_damping_ratio, 0, 100), "slip damping ratio %g: wanted 0 to 100", m->slip_damping_ratio);
+    NEED(m->n_laws >= 1 && m->n_laws <= FW_MAX_LAWS, "%zu abrasion laws: wanted 1 to %d", m->n_laws, (int)FW_MAX_LAWS);
+    for (size_t i = 0; i < m->n_laws; i++)
+        NEED(m->laws[i].exponent > 0 && m->laws[i].exponent < 2,
+             "abrasion law %s: exponent %g: wanted 0 < m < 2 (from 2 on the load of a touch diverges without a crushing limit)",
+             m->laws[i].name, m->laws[i].exponent);
+    NEED(is_in(m->window, 1e-3, 1e9), "window %g s: wanted 1e-3 to 1e9 s", m->window);
+    NEED(is_in(m->accuracy, 1e-4, 0.1), "accuracy %g: wanted 0.01 %% to 10 %%", m->accuracy);
+    NEED(m->n_arcs >= 72 && m->n_arcs <= 3600, "ring of %zu arcs: wanted 72 to 3600", m->n_arcs);
+    NEED(m->n_mixes >= 1 && m->n_mixes <= FW_MAX_MIXES, "%zu thickness mixes: wanted 1 to %d", m->n_mixes, (int)FW_MAX_MIXES);
+    for (size_t i = 0; i < m->n_mixes; i++) {
+        const fw_thickness_mix *x = &m->mixes[i];
+        NEED(x->n_classes >= 1 && x->n_classes <= FW_MAX_CLASSES, "thickness mix %zu has %zu classes: wanted 1 to %d", i + 1,
+             x->n_classes, (int)FW_MAX_CLASSES);
+        for (size_t k = 0; k < x->n_classes; k++)
+            NEED(fw_unbreakable_class_exists(x->classes[k].thickness), "thickness %g m: wanted %g to %g m (4h <= sqrt(130h - 11))",
+                 x->classes[k].thickness, FW_THICKNESS_MIN, FW_THICKNESS_MAX);
+    }
+    return FW_OK;
+}
+
+void fw_site_free(fw_site *s)
+{
+    if (!s) return;
+    fw_distribution_free(&s->speed);
+    fw_distribution_free(&s->concentration);
+    fw_distribution_free(&s->direction);
+    fw_distribution_free(&s->temperature);
+    for (size_t i = 0; i < s->n_cells; i++) fw_distribution_free(&s->cells[i].direction);
+    free(s->cells);
+    memset(s, 0, sizeof *s);
+}
