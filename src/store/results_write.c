@@ -1,0 +1,222 @@
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "store/results.h"
+#include "store/results_block.h"
+
+enum { SCALAR_CHUNK = 8192 };
+
+static fw_status put_root(const fw_h5_file *f, const fw_campaign *c, fw_msg *m)
+{
+    char hash[20];
+    snprintf(hash, sizeof hash, "%016" PRIx64, c->hash);
+    FW_TRY(fw_h5_put_origin(f, FW_RESULTS_FILETYPE, FW_RESULTS_VERSION, m));
+    FW_TRY(fw_h5_put_text(f, f->id, "name", c->name, m));
+    FW_TRY(fw_h5_put_text(f, f->id, "campaign", c->text != NULL ? c->text : "", m));
+    FW_TRY(fw_h5_put_texts(f, f->id, "sets", c->n_sets, (const char *const *)c->sets, m));
+    FW_TRY(fw_h5_put_text(f, f->id, "settings", c->settings != NULL ? c->settings : "", m));
+    FW_TRY(fw_h5_put_text(f, f->id, "settings_hash", hash, m));
+    return fw_h5_put_u64(f, f->id, "seed", c->seed, m);
+}
+
+/* "MPa^1.121 km", or one such text per law when exponents differ: "MPa^1.121 km; MPa^1 km". */
+static void load_unit(char *text, size_t size, const fw_model *model)
+{
+    bool is_one = true;
+    for (size_t i = 1; i < model->n_laws; i++) is_one = is_one && model->laws[i].exponent == model->laws[0].exponent;
+    size_t n = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < (is_one ? 1 : model->n_laws) && n < size; i++) {
+        n += (size_t)snprintf(text + n, size - n, "%sMPa^%.12g km", i > 0 ? "; " : "", model->laws[i].exponent);
+    }
+}
+
+static fw_status put_laws(const fw_h5_file *f, hid_t dataset, const fw_model *model, fw_msg *m)
+{
+    double      exponents[FW_MAX_LAWS];
+    const char *names[FW_MAX_LAWS];
+    for (size_t i = 0; i < model->n_laws; i++) {
+        exponents[i] = model->laws[i].exponent;
+        names[i] = model->laws[i].name;
+    }
+    FW_TRY(fw_h5_put_doubles(f, dataset, "exponents", model->n_laws, exponents, m));
+    return fw_h5_put_texts(f, dataset, "laws", model->n_laws, names, m);
+}
+
+static fw_status put_status_names(const fw_h5_file *f, hid_t dataset, fw_msg *m)
+{
+    const char *names[FW_N_STATUS], *sentences[FW_N_STATUS];
+    for (int i = 0; i < FW_N_STATUS; i++) {
+        names[i] = fw_status_name((fw_status)i);
+        sentences[i] = fw_status_sentence((fw_status)i);
+    }
+    FW_TRY(fw_h5_put_texts(f, dataset, "names", FW_N_STATUS, names, m));
+    return fw_h5_put_texts(f, dataset, "sentences", FW_N_STATUS, sentences, m);
+}
+
+static fw_status create_datasets(const fw_h5_file *f, hid_t at, const fw_model *model, uint64_t n,
+                                 fw_results_datasets *d, fw_msg *m)
+{
+    char        unit[160];
+    hsize_t     rows = fw_results_block_rows(model->n_arcs);
+    fw_h5_shape scalar = {.rank = 1, .dims = {n}, .chunk_rows = SCALAR_CHUNK};
+    fw_h5_shape path = {.rank = 2, .dims = {n, model->n_arcs}, .chunk_rows = rows};
+    fw_h5_shape ring = {.rank = 3, .dims = {n, model->n_laws, model->n_arcs}, .chunk_rows = rows};
+    FW_TRY(fw_h5_create_dataset(f, at, "id", H5T_STD_U64LE, &scalar, "1", "number of the realisation", &d->id, m));
+    FW_TRY(fw_h5_create_dataset(f, at, "status", H5T_STD_I32LE, &scalar, "1",
+                                "0: done; else why the realisation failed, an index into the attribute names",
+                                &d->status, m));
+    FW_TRY(put_status_names(f, d->status, m));
+    hid_t     text = fw_h5_text_type(FW_RESULTS_CAUSE);
+    fw_status status = text < 0
+                           ? fw_h5_fail(f, FW_E_INTERNAL, "cause", m)
+                           : fw_h5_create_dataset(f, at, "cause", text, &scalar, "1",
+                                                  "why the realisation failed, empty when it is done", &d->cause, m);
+    if (text >= 0) H5Tclose(text);
+    FW_TRY(status);
+    for (size_t i = 0; i < fw_n_record_columns; i++) {
+        const fw_record_column *c = &fw_record_columns[i];
+        FW_TRY(fw_h5_create_dataset(f, at, c->name, H5T_IEEE_F64LE, &scalar, c->unit, c->long_name, &d->columns[i], m));
+    }
+    FW_TRY(fw_h5_create_dataset(f, at, "path", H5T_IEEE_F64LE, &path, "km", "sliding path per arc", &d->path, m));
+    load_unit(unit, sizeof unit, model);
+    for (int i = 0; i < FW_RINGS_PER_LAW; i++) {
+        FW_TRY(fw_h5_create_dataset(f, at, fw_results_ring_names[i], H5T_IEEE_F64LE, &ring, unit,
+                                    fw_results_ring_long_names[i], &d->rings[i], m));
+        FW_TRY(put_laws(f, d->rings[i], model, m));
+    }
+    return FW_OK;
+}
+
+static fw_status put_angles(const fw_h5_file *f, hid_t at, size_t n_arcs, fw_msg *m)
+{
+    hid_t       dataset;
+    double     *angles;
+    fw_h5_shape shape = {.rank = 1, .dims = {n_arcs}};
+    FW_TRY(fw_alloc(&angles, n_arcs, sizeof *angles, "angles of arcs", m));
+    for (size_t k = 0; k < n_arcs; k++) angles[k] = ((double)k + 0.5) * 360.0 / (double)n_arcs;
+    fw_status status = fw_h5_create_dataset(
+        f, at, "angle_deg", H5T_IEEE_F64LE, &shape, "degree",
+        "middle of the arc, clockwise seen from above from where the structure faces the current", &dataset, m);
+    if (status == FW_OK) {
+        status = fw_h5_write_rows(f, dataset, H5T_NATIVE_DOUBLE, 0, n_arcs, angles, m);
+        H5Dclose(dataset);
+    }
+    free(angles);
+    return status;
+}
+
+/* Blocks of rows, so that a million records need no more memory than one block. */
+static fw_status stream_records(const fw_h5_file *f, const fw_results_datasets *d, const fw_model *model,
+                                const fw_record_source *source, fw_msg *m)
+{
+    fw_results_block b;
+    fw_record        r;
+    FW_TRY(fw_record_init(&r, model->n_arcs, model->n_laws, m));
+    fw_status status = fw_results_block_create(&b, fw_results_block_rows(model->n_arcs), model->n_arcs, model->n_laws,
+                                               m);
+    for (b.first = 0; status == FW_OK && b.first < source->n; b.first += b.n) {
+        b.n = source->n - b.first < b.capacity ? (size_t)(source->n - b.first) : b.capacity;
+        for (size_t row = 0; row < b.n && status == FW_OK; row++) {
+            status = source->read(source->self, b.first + row, &r, m);
+            if (status == FW_OK && r.id != b.first + row) {
+                status = fw_fail(m, FW_E_INTERNAL, "asked for realisation %" PRIu64 " and was given %" PRIu64,
+                                 b.first + row, r.id);
+            }
+            if (status == FW_OK) fw_results_block_put(&b, row, &r);
+        }
+        if (status == FW_OK) status = fw_results_block_write(f, d, &b, m);
+        if (status == FW_OK)
+            status = fw_h5_file_check(f, m); /* a full disk ends it here, not after a million records */
+    }
+    fw_results_block_free(&b);
+    fw_record_free(&r);
+    return status;
+}
+
+static fw_status put_realisations(const fw_h5_file *f, const fw_campaign *c, const fw_record_source *source, fw_msg *m)
+{
+    hid_t               group;
+    fw_results_datasets d;
+    FW_TRY(fw_results_datasets_create(&d, m));
+    fw_status status = fw_h5_create_group(f, "realisations", &group, m);
+    if (status == FW_OK) status = create_datasets(f, group, &c->model, source->n, &d, m);
+    if (status == FW_OK) status = put_angles(f, group, c->model.n_arcs, m);
+    if (status == FW_OK) status = stream_records(f, &d, &c->model, source, m);
+    fw_results_datasets_close(&d);
+    if (group >= 0) H5Gclose(group);
+    return status;
+}
+
+/* Texts of a column as fixed-length rows of the longest one. */
+static fw_status put_text_column(const fw_h5_file *f, hid_t group, const fw_column *c, const fw_h5_shape *shape,
+                                 fw_msg *m)
+{
+    size_t n = (size_t)shape->dims[0], width = 1;
+    for (size_t i = 0; i < n; i++) {
+        size_t length = c->text[i] != NULL ? strlen(c->text[i]) : 0;
+        if (length > width) width = length;
+    }
+    char *rows;
+    FW_TRY(fw_alloc(&rows, n, width, c->name, m));
+    for (size_t i = 0; i < n; i++) {
+        if (c->text[i] != NULL) memcpy(rows + i * width, c->text[i], strlen(c->text[i]));
+    }
+    hid_t     dataset, type = fw_h5_text_type(width);
+    fw_status status = type < 0
+                           ? fw_h5_fail(f, FW_E_INTERNAL, c->name, m)
+                           : fw_h5_create_dataset(f, group, c->name, type, shape, c->unit, c->long_name, &dataset, m);
+    if (status == FW_OK) {
+        status = fw_h5_write_rows(f, dataset, type, 0, n, rows, m);
+        H5Dclose(dataset);
+    }
+    if (type >= 0) H5Tclose(type);
+    free(rows);
+    return status;
+}
+
+static fw_status put_column(const fw_h5_file *f, hid_t group, const fw_column *c, const fw_h5_shape *shape, fw_msg *m)
+{
+    FW_CHECK((c->number != NULL) + (c->integer != NULL) + (c->text != NULL) == 1, m, FW_E_ARG,
+             "column %s: exactly one of number, integer, text must be given", c->name);
+    if (c->text != NULL) return put_text_column(f, group, c, shape, m);
+    hid_t dataset;
+    bool  is_number = c->number != NULL;
+    FW_TRY(fw_h5_create_dataset(f, group, c->name, is_number ? H5T_IEEE_F64LE : H5T_STD_I64LE, shape, c->unit,
+                                c->long_name, &dataset, m));
+    fw_status status = fw_h5_write_rows(f, dataset, is_number ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64, 0, shape->dims[0],
+                                        is_number ? (const void *)c->number : (const void *)c->integer, m);
+    H5Dclose(dataset);
+    return status;
+}
+
+static fw_status put_table(const fw_h5_file *f, const fw_table *t, fw_msg *m)
+{
+    hid_t       group;
+    fw_h5_shape shape = {.rank = 1, .dims = {t->n_rows}};
+    FW_TRY(fw_h5_create_group(f, t->name, &group, m));
+    fw_status status = FW_OK;
+    for (size_t i = 0; i < t->n_columns && status == FW_OK; i++) {
+        status = put_column(f, group, &t->columns[i], &shape, m);
+    }
+    H5Gclose(group);
+    return status;
+}
+
+fw_status fw_results_write(const char *path, const fw_campaign *c, const fw_record_source *records, size_t n_tables,
+                           const fw_table *tables, fw_msg *m)
+{
+    fw_h5_file f;
+    FW_CHECK(c->model.n_arcs > 0 && c->model.n_laws > 0 && c->model.n_laws <= FW_MAX_LAWS, m, FW_E_ARG,
+             "%s: results of %zu arcs and %zu laws", path, c->model.n_arcs, c->model.n_laws);
+    FW_TRY(fw_h5_file_create(&f, path, m));
+    fw_status status = put_root(&f, c, m);
+    if (status == FW_OK) status = put_realisations(&f, c, records, m);
+    for (size_t i = 0; i < n_tables && status == FW_OK; i++) status = put_table(&f, &tables[i], m);
+    if (status == FW_OK) return fw_h5_file_finish(&f, m);
+    fw_h5_file_close(&f);
+    return status;
+}

@@ -1,0 +1,652 @@
+/* The journal keeps records bit for bit, drops a torn tail at whatever byte it is torn, and never writes over damage.
+ * Expected values: the records themselves, made from their ids; sizes from the layout in journal_format.h. */
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
+
+#include "base/hash.h"
+#include "store/journal.h"
+#include "store_help.h"
+
+enum { N_ARCS = 72, N_LAWS = 1 };
+
+static void remove_all(const char *path)
+{
+    char other[64];
+    unlink(path);
+    snprintf(other, sizeof other, "%s.old", path);
+    unlink(other);
+}
+
+static void append(fw_journal *j, const uint64_t *ids, size_t n)
+{
+    fw_record r;
+    assert_ok(fw_record_init(&r, N_ARCS, N_LAWS, &msg));
+    for (size_t i = 0; i < n; i++) {
+        help_fill(&r, ids[i]);
+        assert_ok(fw_journal_append(j, &r, &msg));
+    }
+    fw_record_free(&r);
+}
+
+static void append_range(fw_journal *j, uint64_t first, uint64_t end)
+{
+    for (uint64_t id = first; id < end; id++) append(j, &id, 1);
+}
+
+static void assert_record(fw_journal *j, uint64_t id)
+{
+    fw_record r, wanted;
+    assert_ok(fw_record_init(&r, N_ARCS, N_LAWS, &msg));
+    assert_ok(fw_record_init(&wanted, N_ARCS, N_LAWS, &msg));
+    help_fill(&wanted, id);
+    assert_ok(fw_journal_read(j, id, &r, &msg));
+    help_assert_same(&r, &wanted);
+    fw_record_free(&r);
+    fw_record_free(&wanted);
+}
+
+static void assert_range(fw_journal *j, uint64_t end)
+{
+    size_t          n;
+    const uint64_t *ids = fw_journal_ids(j, &n);
+    assert_int_equal(n, end);
+    assert_int_equal(fw_journal_prefix(j), end);
+    for (uint64_t id = 0; id < end; id++) {
+        assert_true(ids[id] == id);
+        assert_record(j, id);
+    }
+}
+
+/* A journal of records 0..n-1, closed. */
+static void make(const char *path, uint64_t n)
+{
+    fw_campaign c = help_campaign(N_ARCS, N_LAWS);
+    fw_journal *j;
+    remove_all(path);
+    assert_ok(fw_journal_open(&j, path, &c, false, &msg));
+    append_range(j, 0, n);
+    assert_ok(fw_journal_close(j, &msg));
+}
+
+static size_t header_size(const fw_campaign *c) { return 128 + strlen(c->settings) + 4 + 12; }
+
+static size_t block_size(void) { return 16 + fw_record_packed_size(N_ARCS, N_LAWS) + 4; }
+
+static void test_round_trip_in_any_order(void **state)
+{
+    (void)state;
+    static const uint64_t ids[] = {3, 0, 1, 7, UINT64_MAX, 2, 5};
+    fw_campaign           c = help_campaign(N_ARCS, N_LAWS);
+    fw_journal           *j;
+    size_t                n;
+    assert_ok(fw_journal_open(&j, "a.journal", &c, false, &msg));
+    assert_false(help_exists("a.journal.tmp"));
+    fw_journal_ids(j, &n);
+    assert_int_equal(n, 0);
+    append(j, ids, 4);
+    assert_record(j, 3); /* still in the buffer */
+    assert_ok(fw_journal_flush(j, &msg));
+    append(j, ids + 4, 3);
+    assert_int_equal(fw_journal_prefix(j), 4);
+    assert_record(j, UINT64_MAX);
+    assert_ok(fw_journal_close(j, &msg));
+
+    assert_ok(fw_journal_open(&j, "a.journal", &c, false, &msg));
+    static const uint64_t sorted[] = {0, 1, 2, 3, 5, 7, UINT64_MAX};
+    const uint64_t       *there = fw_journal_ids(j, &n);
+    assert_int_equal(n, 7);
+    assert_memory_equal(there, sorted, sizeof sorted);
+    assert_int_equal(fw_journal_prefix(j), 4);
+    for (size_t i = 0; i < 7; i++) assert_record(j, sorted[i]);
+    append(j, (const uint64_t[]){4, 6}, 2);
+    assert_int_equal(fw_journal_prefix(j), 8);
+    fw_record r;
+    assert_ok(fw_record_init(&r, N_ARCS, N_LAWS, &msg));
+    assert_int_equal(fw_journal_read(j, 9, &r, &msg), FW_E_ARG);
+    fw_record_free(&r);
+    assert_ok(fw_record_init(&r, N_ARCS, N_LAWS + 1, &msg));
+    assert_int_equal(fw_journal_read(j, 0, &r, &msg), FW_E_ARG);
+    assert_int_equal(fw_journal_append(j, &r, &msg), FW_E_ARG);
+    fw_record_free(&r);
+    assert_ok(fw_journal_close(j, &msg));
+    assert_ok(fw_journal_close(NULL, &msg));
+}
+
+static void test_commits_by_itself_after_100(void **state)
+{
+    (void)state;
+    fw_campaign c = help_campaign(N_ARCS, N_LAWS);
+    fw_journal *j, *reader;
+    size_t      n;
+    assert_ok(fw_journal_open(&j, "b.journal", &c, false, &msg));
+    append_range(j, 0, 99);
+    assert_ok(fw_journal_open_read(&reader, "b.journal", &c, &msg));
+    fw_journal_ids(reader, &n);
+    assert_int_equal(n, 0);
+    assert_ok(fw_journal_close(reader, &msg));
+    append_range(j, 99, 100);
+    assert_ok(fw_journal_open_read(&reader, "b.journal", NULL, &msg));
+    assert_range(reader, 100);
+    fw_record r;
+    assert_ok(fw_record_init(&r, N_ARCS, N_LAWS, &msg));
+    assert_int_equal(fw_journal_append(reader, &r, &msg), FW_E_ARG);
+    fw_record_free(&r);
+    assert_ok(fw_journal_close(reader, &msg));
+    append_range(j, 100, 350);
+    assert_ok(fw_journal_close(j, &msg));
+    assert_ok(fw_journal_open(&j, "b.journal", &c, false, &msg));
+    assert_range(j, 350);
+    assert_ok(fw_journal_close(j, &msg));
+}
+
+static void test_torn_tail_at_every_byte(void **state)
+{
+    (void)state;
+    make("c.journal", 3);
+    fw_campaign    c = help_campaign(N_ARCS, N_LAWS);
+    size_t         n, block = block_size();
+    unsigned char *whole = help_load("c.journal", &n);
+    assert_int_equal(n, header_size(&c) + 3 * block);
+    for (size_t cut = 1; cut <= block; cut++) {
+        fw_journal *j;
+        help_save("c.journal", whole, n - cut);
+        if (cut % 97 == 1) {
+            assert_ok(fw_journal_open_read(&j, "c.journal", &c, &msg));
+            assert_int_equal(fw_journal_torn(j), block - cut);
+            assert_range(j, 2);
+            assert_ok(fw_journal_close(j, &msg));
+        }
+        assert_ok(fw_journal_open(&j, "c.journal", &c, false, &msg));
+        assert_int_equal(fw_journal_torn(j), block - cut);
+        assert_range(j, 2);
+        append_range(j, 2, 3);
+        assert_ok(fw_journal_close(j, &msg));
+        size_t         n_again;
+        unsigned char *again = help_load("c.journal", &n_again);
+        assert_int_equal(n_again, n);
+        assert_memory_equal(again, whole, n);
+        free(again);
+    }
+    /* The last block is there in full length but with other bytes: torn as well (zeros are what a power cut leaves). */
+    for (size_t at = n - block; at < n; at += 13) {
+        fw_journal   *j;
+        unsigned char kept = whole[at];
+        whole[at] ^= 0x10;
+        help_save("c.journal", whole, n);
+        whole[at] = kept;
+        assert_ok(fw_journal_open(&j, "c.journal", &c, false, &msg));
+        assert_range(j, 2);
+        assert_ok(fw_journal_close(j, &msg));
+    }
+    free(whole);
+}
+
+static void assert_refused_untouched(const char *path, fw_status wanted)
+{
+    fw_campaign    c = help_campaign(N_ARCS, N_LAWS);
+    size_t         n, n_after;
+    fw_journal    *j;
+    unsigned char *before = help_load(path, &n);
+    assert_int_equal(fw_journal_open(&j, path, &c, false, &msg), wanted);
+    assert_null(j);
+    assert_non_null(strstr(msg.text, path));
+    assert_int_equal(fw_journal_open_read(&j, path, &c, NULL), wanted);
+    assert_null(j);
+    unsigned char *after = help_load(path, &n_after);
+    assert_int_equal(n, n_after);
+    assert_memory_equal(before, after, n);
+    free(before);
+    free(after);
+}
+
+static void test_damage_in_the_middle(void **state)
+{
+    (void)state;
+    make("d.journal", 5);
+    fw_campaign    c = help_campaign(N_ARCS, N_LAWS);
+    size_t         n, block = block_size(), head = header_size(&c);
+    unsigned char *whole = help_load("d.journal", &n);
+    for (size_t at = head; at < n - block; at += 29) {
+        whole[at] ^= 0x01;
+        help_save("d.journal", whole, n);
+        whole[at] ^= 0x01;
+        assert_refused_untouched("d.journal", FW_E_FORMAT);
+    }
+    /* the message names record and byte: here the third one, whose length field says something else */
+    whole[head + 2 * block] ^= 0x01;
+    help_save("d.journal", whole, n);
+    assert_refused_untouched("d.journal", FW_E_FORMAT);
+    char wanted[64];
+    snprintf(wanted, sizeof wanted, "record number 3 at byte %zu", head + 2 * block);
+    fw_journal *j;
+    assert_int_equal(fw_journal_open(&j, "d.journal", &c, false, &msg), FW_E_FORMAT);
+    assert_non_null(strstr(msg.text, wanted));
+    free(whole);
+
+    /* a byte lost in a long journal: all that follows is out of step, more than any crash can tear */
+    make("d.journal", 150);
+    whole = help_load("d.journal", &n);
+    memmove(whole + head + 5, whole + head + 6, n - head - 6);
+    help_save("d.journal", whole, n - 1);
+    assert_refused_untouched("d.journal", FW_E_FORMAT);
+    free(whole);
+}
+
+static void test_header_damage_and_foreign_files(void **state)
+{
+    (void)state;
+    make("e.journal", 2);
+    fw_campaign    c = help_campaign(N_ARCS, N_LAWS);
+    fw_journal    *j;
+    size_t         n, head = header_size(&c);
+    unsigned char *whole = help_load("e.journal", &n);
+    for (size_t at = 0; at < head - 12; at++) {
+        whole[at] ^= 0x04;
+        help_save("e.journal", whole, n);
+        whole[at] ^= 0x04;
+        assert_refused_untouched("e.journal", FW_E_FORMAT);
+    }
+    for (size_t size = 0; size < head; size++) {
+        help_save("e.journal", whole, size);
+        assert_refused_untouched("e.journal", FW_E_FORMAT);
+    }
+    /* the slot is outside: damage there costs the total only, and the next call writes it anew */
+    fw_journal_facts facts;
+    whole[head - 12] ^= 0x04;
+    help_save("e.journal", whole, n);
+    assert_ok(fw_journal_facts_of("e.journal", &facts, &msg));
+    assert_int_equal(facts.max_realisations, 0);
+    assert_int_equal(facts.n_done, 2);
+    c.precision.max_realisations = 4000;
+    assert_ok(fw_journal_open(&j, "e.journal", &c, false, &msg));
+    assert_ok(fw_journal_close(j, &msg));
+    assert_ok(fw_journal_facts_of("e.journal", &facts, &msg));
+    assert_int_equal(facts.max_realisations, 4000);
+    free(whole);
+
+    help_save("e.journal", (const unsigned char *)"name: small\n", 12);
+    assert_refused_untouched("e.journal", FW_E_FORMAT);
+    unlink("e.journal");
+    assert_int_equal(mkfifo("e.journal", 0600), 0);
+    assert_int_equal(fw_journal_open_read(&j, "e.journal", &c, &msg), FW_E_FORMAT);
+    assert_int_equal(fw_journal_open(&j, "e.journal", &c, false, &msg), FW_E_FORMAT);
+    unlink("e.journal");
+    assert_int_equal(mkdir("e.journal", 0700), 0);
+    assert_int_equal(fw_journal_open(&j, "e.journal", &c, false, &msg), FW_E_IO);
+    assert_int_equal(rmdir("e.journal"), 0);
+}
+
+static void test_unwritable_places(void **state)
+{
+    (void)state;
+    fw_campaign c = help_campaign(N_ARCS, N_LAWS);
+    fw_journal *j;
+    assert_int_equal(fw_journal_open(&j, "missing-folder/x.journal", &c, false, &msg), FW_E_IO);
+    assert_non_null(strstr(msg.text, "missing-folder/x.journal"));
+    help_save("plain", (const unsigned char *)"x", 1);
+    assert_int_equal(fw_journal_open(&j, "plain/x.journal", &c, false, &msg), FW_E_IO);
+    assert_int_equal(fw_journal_open(&j, "plain/x.journal", &c, true, &msg), FW_E_IO);
+    assert_int_equal(fw_journal_open(&j, "", &c, false, &msg), FW_E_IO);
+    assert_int_equal(fw_journal_open_read(&j, "nothing.journal", &c, &msg), FW_E_IO);
+    assert_false(help_exists("nothing.journal"));
+    fw_journal_facts facts;
+    assert_int_equal(fw_journal_facts_of("nothing.journal", &facts, &msg), FW_E_IO);
+}
+
+static void test_mismatch_names_the_settings(void **state)
+{
+    (void)state;
+    make("f.journal", 2);
+    fw_campaign c = help_campaign(N_ARCS, N_LAWS);
+    fw_journal *j;
+    char        other[] = "contact.friction = 0.2\ncontact.stiffness = 2e6 N/m\ncurrent.speed = 1.5 m/s\nseed = 7\n";
+    c.settings = other;
+    c.hash = 0x999;
+    assert_int_equal(fw_journal_open(&j, "f.journal", &c, false, &msg), FW_E_MISMATCH);
+    assert_non_null(strstr(msg.text, "f.journal"));
+    assert_non_null(strstr(msg.text, "current.speed (journal: 2 m/s, campaign: 1.5 m/s)"));
+    assert_non_null(strstr(msg.text, "ice.density (journal: 900 kg/m3, campaign: nothing)"));
+    assert_non_null(strstr(msg.text, "contact.friction (journal: nothing, campaign: 0.2)"));
+    assert_null(strstr(msg.text, "stiffness"));
+    assert_null(strstr(msg.text, "seed"));
+    assert_int_equal(fw_journal_open_read(&j, "f.journal", &c, &msg), FW_E_MISMATCH);
+
+    /* at most five, and long values are cut */
+    char many[4096] = "";
+    for (int i = 0; i < 20; i++) {
+        snprintf(many + strlen(many), sizeof many - strlen(many), "key%d = %0100d\n", i, i);
+    }
+    c.settings = many;
+    assert_int_equal(fw_journal_open(&j, "f.journal", &c, false, &msg), FW_E_MISMATCH);
+    assert_non_null(strstr(msg.text, "and 19 more")); /* 20 new and 4 missing ones, five named */
+    assert_null(strstr(msg.text, "key1 "));
+
+    /* the same text under another seed or hash */
+    c = help_campaign(N_ARCS, N_LAWS);
+    c.seed = 8;
+    assert_int_equal(fw_journal_open(&j, "f.journal", &c, false, &msg), FW_E_MISMATCH);
+    assert_non_null(strstr(msg.text, "seed 7"));
+    assert_non_null(strstr(msg.text, "seed 8"));
+
+    /* nothing was changed by all this; --fresh keeps the old one beside the new one */
+    assert_ok(fw_journal_open_read(&j, "f.journal", NULL, &msg));
+    assert_range(j, 2);
+    assert_ok(fw_journal_close(j, &msg));
+    assert_ok(fw_journal_open(&j, "f.journal", &c, true, &msg));
+    assert_range(j, 0);
+    append_range(j, 0, 1);
+    assert_ok(fw_journal_close(j, &msg));
+    assert_ok(fw_journal_open_read(&j, "f.journal.old", NULL, &msg));
+    assert_range(j, 2);
+    assert_ok(fw_journal_close(j, &msg));
+    assert_ok(fw_journal_open_read(&j, "f.journal", &c, &msg));
+    assert_range(j, 1);
+    assert_ok(fw_journal_close(j, &msg));
+}
+
+static void test_lock(void **state)
+{
+    (void)state;
+    remove_all("g.journal");
+    fw_campaign      c = help_campaign(N_ARCS, N_LAWS);
+    fw_journal      *j, *second;
+    fw_journal_facts facts;
+    assert_ok(fw_journal_open(&j, "g.journal", &c, false, &msg)); /* new: the lock came along through the rename */
+    assert_int_equal(fw_journal_open(&second, "g.journal", &c, false, &msg), FW_E_IO);
+    assert_non_null(strstr(msg.text, "another run"));
+    assert_int_equal(fw_journal_open(&second, "g.journal", &c, true, &msg), FW_E_IO);
+    assert_false(help_exists("g.journal.old"));
+    append_range(j, 0, 9);
+    assert_ok(fw_journal_flush(j, &msg));
+    assert_ok(fw_journal_facts_of("g.journal", &facts, &msg));
+    assert_true(facts.is_running);
+    assert_ok(fw_journal_close(j, &msg));
+    assert_ok(fw_journal_open(&j, "g.journal", &c, false, &msg)); /* old: locked afresh */
+    assert_int_equal(fw_journal_open(&second, "g.journal", &c, false, &msg), FW_E_IO);
+    assert_ok(fw_journal_close(j, &msg));
+    assert_ok(fw_journal_facts_of("g.journal", &facts, &msg));
+    assert_false(facts.is_running);
+    assert_string_equal(facts.name, "small");
+    assert_int_equal(facts.hash, 0x1234);
+    assert_int_equal(facts.seed, 7);
+    assert_int_equal(facts.max_realisations, 50);
+    assert_int_equal(facts.n_done, 9);
+    assert_int_equal(facts.n_failed, 1); /* id 6 */
+    assert_int_equal(facts.prefix, 9);
+    assert_int_equal(facts.torn_bytes, 0);
+    assert_int_equal(facts.n_arcs, N_ARCS);
+    assert_int_equal(facts.n_laws, N_LAWS);
+    assert_true(facts.host_cpu_s == 9 * 0.25);
+}
+
+static void test_one_id_twice(void **state)
+{
+    (void)state;
+    make("h.journal", 3);
+    fw_campaign c = help_campaign(N_ARCS, N_LAWS);
+    fw_journal *j;
+    fw_record   r;
+    size_t      n;
+    assert_ok(fw_record_init(&r, N_ARCS, N_LAWS, &msg));
+    assert_ok(fw_journal_open(&j, "h.journal", &c, false, &msg));
+    help_fill(&r, 1);
+    r.host_cpu_s = 99.0; /* another machine: the same record */
+    assert_ok(fw_journal_append(j, &r, &msg));
+    assert_record(j, 1); /* the first one counts */
+    fw_journal_ids(j, &n);
+    assert_int_equal(n, 3);
+    r.rings[5] = nextafter(r.rings[5], INFINITY);
+    assert_int_equal(fw_journal_append(j, &r, &msg), FW_E_FORMAT);
+    assert_non_null(strstr(msg.text, "realisation 1"));
+    assert_ok(fw_journal_close(j, &msg));
+
+    /* in a file, as two runs that were pasted together would leave it */
+    fw_campaign    same = help_campaign(N_ARCS, N_LAWS);
+    size_t         head = header_size(&same), block = block_size();
+    unsigned char *bytes = help_load("h.journal", &n);
+    assert_int_equal(n, head + 3 * block);
+    unsigned char *twice = malloc(n + block);
+    assert_non_null(twice);
+    memcpy(twice, bytes, n);
+    memcpy(twice + n, bytes + head, block);
+    help_save("h.journal", twice, n + block);
+    assert_ok(fw_journal_open(&j, "h.journal", &c, false, &msg));
+    assert_range(j, 3);
+    append_range(j, 3, 4); /* lands behind the superfluous block */
+    assert_range(j, 4);
+    assert_ok(fw_journal_close(j, &msg));
+    assert_ok(fw_journal_open(&j, "h.journal", &c, false, &msg));
+    assert_range(j, 4);
+    assert_ok(fw_journal_close(j, &msg));
+
+    unsigned char *last = twice + n; /* other bits under a right checksum */
+    last[16 + 250] ^= 0x01;
+    uint32_t crc = fw_crc32c(0, last, block - 4);
+    for (int i = 0; i < 4; i++) last[block - 4 + (size_t)i] = (unsigned char)(crc >> (8 * i));
+    help_save("h.journal", twice, n + block);
+    assert_int_equal(fw_journal_open(&j, "h.journal", &c, false, &msg), FW_E_FORMAT);
+    assert_non_null(strstr(msg.text, "twice"));
+    free(bytes);
+    free(twice);
+    fw_record_free(&r);
+}
+
+/* In a child, because a limit once lowered stays: files may not grow beyond `limit` bytes (SIGXFSZ ignored, so that
+ * write says EFBIG after a short write, exactly as ENOSPC comes from a full disk). Returns the child's exit code. */
+static int under_limit(size_t limit, int (*work)(void))
+{
+    pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        struct rlimit l = {.rlim_cur = limit, .rlim_max = limit};
+        signal(SIGXFSZ, SIG_IGN);
+        _exit(setrlimit(RLIMIT_FSIZE, &l) == 0 ? work() : 99);
+    }
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+static int work_until_full(void)
+{
+    fw_campaign c = help_campaign(N_ARCS, N_LAWS);
+    fw_journal *j;
+    fw_record   r;
+    if (fw_record_init(&r, N_ARCS, N_LAWS, &msg) != FW_OK) return 98;
+    if (fw_journal_open(&j, "i.journal", &c, false, &msg) != FW_OK) return 1;
+    for (uint64_t id = 0; id < 40; id++) {
+        help_fill(&r, id);
+        if (fw_journal_append(j, &r, &msg) != FW_OK) return 2;
+        if (id % 4 == 3 && fw_journal_flush(j, &msg) != FW_OK) {
+            bool says = strstr(msg.text, "i.journal") != NULL && strstr(msg.text, "bytes") != NULL &&
+                        strstr(msg.text, "cut back") != NULL && strstr(msg.text, strerror(EFBIG)) != NULL;
+            fw_status still = fw_journal_close(j, &msg);
+            fw_record_free(&r);
+            return says && still == FW_E_IO ? 3 : 4;
+        }
+    }
+    return 5;
+}
+
+static void test_full_disk(void **state)
+{
+    (void)state;
+    fw_campaign c = help_campaign(N_ARCS, N_LAWS);
+    size_t      head = header_size(&c), block = block_size();
+    for (size_t extra = 0; extra < block; extra += 331) {
+        fw_journal *j;
+        size_t      n;
+        remove_all("i.journal");
+        /* commits of four: the third one is torn somewhere in its records 8 to 11; the whole ones before stay */
+        size_t whole = 8 + extra / 331 % 4, limit = head + whole * block + extra;
+        assert_int_equal(under_limit(limit, work_until_full), 3);
+        free(help_load("i.journal", &n));
+        assert_int_equal(n, head + whole * block);
+        assert_ok(fw_journal_open(&j, "i.journal", &c, false, &msg)); /* resume on a disk with room */
+        assert_int_equal(fw_journal_torn(j), 0);
+        assert_range(j, whole);
+        append_range(j, whole, 40);
+        assert_ok(fw_journal_close(j, &msg));
+        assert_ok(fw_journal_open(&j, "i.journal", &c, false, &msg));
+        assert_range(j, 40);
+        assert_ok(fw_journal_close(j, &msg));
+    }
+    remove_all("i.journal");
+    assert_int_equal(under_limit(head - 1, work_until_full), 1); /* not even the header */
+    assert_false(help_exists("i.journal"));
+    assert_false(help_exists("i.journal.tmp"));
+}
+
+static int work_with_second_chance(void)
+{
+    fw_campaign   c = help_campaign(N_ARCS, N_LAWS);
+    fw_journal   *j;
+    struct rlimit low;
+    if (fw_journal_open(&j, "k.journal", &c, false, &msg) != FW_OK || getrlimit(RLIMIT_FSIZE, &low) != 0) return 1;
+    struct rlimit tight = {.rlim_cur = header_size(&c) + block_size() / 2, .rlim_max = low.rlim_max};
+    if (setrlimit(RLIMIT_FSIZE, &tight) != 0) return 2;
+    append_range(j, 0, 99);
+    fw_record r;
+    if (fw_record_init(&r, N_ARCS, N_LAWS, &msg) != FW_OK) return 3;
+    help_fill(&r, 99);
+    if (fw_journal_append(j, &r, &msg) != FW_E_IO) return 4;
+    help_fill(&r, 100);
+    if (fw_journal_append(j, &r, &msg) != FW_E_IO) return 5; /* the buffer is full: refused, not lost silently */
+    tight.rlim_cur += 10 * block_size();                     /* room for ten: they go to disk, the others wait */
+    if (setrlimit(RLIMIT_FSIZE, &tight) != 0 || fw_journal_flush(j, &msg) != FW_E_IO) return 6;
+    assert_record(j, 9);
+    assert_record(j, 10);
+    if (setrlimit(RLIMIT_FSIZE, &low) != 0) return 9;
+    if (fw_journal_append(j, &r, &msg) != FW_OK) return 7;
+    fw_record_free(&r);
+    return fw_journal_close(j, &msg) == FW_OK ? 0 : 8;
+}
+
+static void test_room_again(void **state)
+{
+    (void)state;
+    fw_campaign c = help_campaign(N_ARCS, N_LAWS);
+    fw_journal *j;
+    remove_all("k.journal");
+    assert_int_equal(under_limit(1 << 24, work_with_second_chance), 0);
+    assert_ok(fw_journal_open(&j, "k.journal", &c, false, &msg));
+    assert_range(j, 101);
+    assert_ok(fw_journal_close(j, &msg));
+}
+
+static void test_reader_beside_a_writer(void **state)
+{
+    (void)state;
+    enum { N = 3000 };
+    fw_campaign c = help_campaign(N_ARCS, N_LAWS);
+    fw_journal *j;
+    remove_all("l.journal");
+    assert_ok(fw_journal_open(&j, "l.journal", &c, false, &msg));
+    pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) { /* the writer; it has the lock by the same open file */
+        fw_record r;
+        if (fw_record_init(&r, N_ARCS, N_LAWS, NULL) != FW_OK) _exit(1);
+        for (uint64_t id = 0; id < N; id++) {
+            help_fill(&r, id);
+            if (fw_journal_append(j, &r, NULL) != FW_OK || (id % 17 == 0 && fw_journal_flush(j, NULL) != FW_OK))
+                _exit(2);
+        }
+        fw_record_free(&r);
+        _exit(fw_journal_close(j, NULL) == FW_OK ? 0 : 3);
+    }
+    uint64_t seen = 0;
+    while (seen < N) {
+        fw_journal *reader;
+        size_t      n;
+        assert_ok(fw_journal_open_read(&reader, "l.journal", &c, &msg));
+        fw_journal_ids(reader, &n);
+        assert_true(n >= seen);
+        seen = n;
+        assert_int_equal(fw_journal_prefix(reader), seen);
+        if (seen > 0) assert_record(reader, seen - 1);
+        assert_ok(fw_journal_close(reader, &msg));
+    }
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 0);
+    assert_ok(fw_journal_close(j, &msg));
+}
+
+/* A writer killed at random moments, from before the file exists to the middle of commits: whenever the journal is
+ * opened again it holds a prefix of what was appended, and at the end all of it. */
+static void test_killed_writer(void **state)
+{
+    (void)state;
+    enum { N = 2000 };
+    fw_campaign c = help_campaign(N_ARCS, N_LAWS);
+    uint64_t    chaos = 42, kills = 0;
+    remove_all("n.journal");
+    for (bool is_done = false; !is_done && kills < 500;) {
+        pid_t child = fork();
+        assert_true(child >= 0);
+        if (child == 0) {
+            fw_journal *j;
+            fw_record   r;
+            if (fw_journal_open(&j, "n.journal", &c, false, NULL) != FW_OK) _exit(1);
+            if (fw_record_init(&r, N_ARCS, N_LAWS, NULL) != FW_OK) _exit(2);
+            for (uint64_t id = fw_journal_prefix(j); id < N; id++) {
+                help_fill(&r, id);
+                if (fw_journal_append(j, &r, NULL) != FW_OK || (id % 7 == 0 && fw_journal_flush(j, NULL) != FW_OK))
+                    _exit(3);
+            }
+            fw_record_free(&r);
+            _exit(fw_journal_close(j, NULL) == FW_OK ? 0 : 4);
+        }
+        if (kills < 25) {
+            nanosleep(&(struct timespec){.tv_nsec = 1000 * (long)(help_next(&chaos) % (kills < 5 ? 400 : 20000))},
+                      NULL);
+            kill(child, SIGKILL);
+            kills++;
+        }
+        int status;
+        assert_int_equal(waitpid(child, &status, 0), child);
+        if (WIFEXITED(status)) assert_int_equal(WEXITSTATUS(status), 0);
+        is_done = WIFEXITED(status);
+        fw_journal *j;
+        if (help_exists("n.journal")) {
+            size_t n;
+            assert_ok(fw_journal_open_read(&j, "n.journal", &c, &msg));
+            fw_journal_ids(j, &n);
+            assert_int_equal(fw_journal_prefix(j), n);
+            assert_ok(fw_journal_close(j, &msg));
+        }
+    }
+    fw_journal *j;
+    assert_ok(fw_journal_open(&j, "n.journal", &c, false, &msg));
+    assert_range(j, N);
+    assert_ok(fw_journal_close(j, &msg));
+    assert_false(help_exists("n.journal.tmp"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_round_trip_in_any_order),
+        cmocka_unit_test(test_commits_by_itself_after_100),
+        cmocka_unit_test(test_torn_tail_at_every_byte),
+        cmocka_unit_test(test_damage_in_the_middle),
+        cmocka_unit_test(test_header_damage_and_foreign_files),
+        cmocka_unit_test(test_unwritable_places),
+        cmocka_unit_test(test_mismatch_names_the_settings),
+        cmocka_unit_test(test_lock),
+        cmocka_unit_test(test_one_id_twice),
+        cmocka_unit_test(test_full_disk),
+        cmocka_unit_test(test_room_again),
+        cmocka_unit_test(test_reader_beside_a_writer),
+        cmocka_unit_test(test_killed_writer),
+    };
+    return cmocka_run_group_tests(tests, help_enter_folder, help_leave_folder);
+}
