@@ -32,6 +32,7 @@
     X(wear_conservation, "1", "wear load on the ring against the patch integral, relative")                            \
     X(force_evaluations, "1", "contact force evaluations, one per contact and stage")                                  \
     X(steps, "1", "sub-steps of all islands")                                                                          \
+    X(late_touches, "1", "touches found only after the rims had overlapped")                                           \
     X(floes_made, "1", "floes generated")                                                                              \
     X(floes_touched, "1", "floes that were ever touched")                                                              \
     X(host_cpu_s, "s", "processor time on the machine that computed it")

@@ -16,7 +16,8 @@ void fw_neighbours_free(fw_neighbours *n)
 
 bool fw_neighbours_is_stale(const fw_neighbours *n, const fw_setup *s, const fw_world *w, double macro_time)
 {
-    if (!n->is_valid) return true;
+    /* sleepers name floes by block and row: ice that came or went since has moved the numbers */
+    if (!n->is_valid || n->blocks_listed != w->block_changes) return true;
     /* Ways are measured in the ice frame, where untouched floes stand still and the structure moves upstream. Two floes
      * close the skin only when the sum of their ways does. */
     double first = fabs(w->drift - n->drift_listed), second = 0; /* the structure's own way */
@@ -68,6 +69,7 @@ fw_status fw_neighbours_list(fw_neighbours *n, const fw_setup *s, fw_world *w, f
 {
     n->n_near = n->n_sleepers = 0;
     n->drift_listed           = w->drift;
+    n->blocks_listed          = w->block_changes;
     w->ledger.rebuilds++;
     double big = 0;
     for (size_t i = 0; i < w->n_bodies; i++) big = fmax(big, w->bodies[i].radius);

@@ -4,7 +4,6 @@
 
 #include <stddef.h>
 
-#include "floewear/realisation.h"
 #include "floewear/scenario.h"
 
 typedef struct fw_abrasion_entry {
@@ -15,6 +14,6 @@ typedef struct fw_abrasion_entry {
 size_t                 fw_abrasion_list(const fw_abrasion_entry **entries);
 const fw_abrasion_law *fw_abrasion_find(const char *name); /* NULL: unknown */
 
-/* fw_abrasion_rate (declared in floewear/realisation.h): factor from wear load [MPa^m km] to depth [mm]. */
+/* fw_abrasion_rate (declared in floewear/scenario.h): factor from wear load [MPa^m km] to depth [mm]. */
 
 #endif

@@ -20,6 +20,7 @@ void fw_outcome_fill(fw_record *r, const fw_world *w, const fw_wear *wear, doubl
     r->wear_conservation  = fw_wear_conservation(wear);
     r->force_evaluations  = l->force_evaluations;
     r->steps              = l->steps;
+    r->late_touches       = l->late_touches;
     r->floes_touched      = (double)w->n_touched;
     for (size_t k = 0; k < wear->n_arcs; k++) r->rings[k] = wear->path[k] * 1e-3; /* m -> km */
     for (size_t i = 0; i < wear->n_laws; i++) {
