@@ -1,7 +1,7 @@
 #include "base/hash.h"
 
-/* Bit by bit over the reflected Castagnoli polynomial (iSCSI, RFC 3720), a nibble at a time from a table of 16: records are
- * a few ten kB and come at most some hundred a second, so no wider table is worth its cache. */
+/* Bit by bit over the reflected Castagnoli polynomial (iSCSI, RFC 3720), a nibble at a time from a table of 16:
+ * records are a few ten kB and come at most some hundred a second, so no wider table is worth its cache. */
 uint32_t fw_crc32c(uint32_t crc, const void *bytes, size_t n)
 {
     static const uint32_t nibble[16] = {0x00000000, 0x105ec76f, 0x20bd8ede, 0x30e349b1, 0x417b1dbc, 0x5125dad3,

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 uint32_t fw_crc32c(uint32_t crc, const void *bytes, size_t n); /* start with 0; check: "123456789" -> 0xe3069283 */
-uint64_t fw_fnv1a64(const void *bytes, size_t n);              /* check: "" -> 0xcbf29ce484222325, "a" -> 0xaf63dc4c8601ec8c */
+/* check: "" -> 0xcbf29ce484222325, "a" -> 0xaf63dc4c8601ec8c */
+uint64_t fw_fnv1a64(const void *bytes, size_t n);
 
 #endif

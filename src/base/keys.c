@@ -29,11 +29,11 @@ static size_t distance(const char *a, const char *b)
         now[0] = i;
         for (size_t j = 1; j <= k; j++) {
             bool   is_same = lower(a[i - 1]) == lower(b[j - 1]);
-            size_t best    = before[j - 1] + !is_same;
+            size_t best = before[j - 1] + !is_same;
             if (before[j] + 1 < best) best = before[j] + 1;
             if (now[j - 1] + 1 < best) best = now[j - 1] + 1;
-            if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1])
-                && older[j - 2] + 1 < best) {
+            if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]) &&
+                older[j - 2] + 1 < best) {
                 best = older[j - 2] + 1;
             }
             now[j] = best;
@@ -55,12 +55,12 @@ static size_t mismatch(const char *name, const char *wrong)
 const char *fw_keys_nearest_word(size_t n, const char *const *names, const char *wrong)
 {
     const char *nearest = NULL;
-    size_t      least   = MAX_NAME;
+    size_t      least = MAX_NAME;
 
     for (size_t i = 0; i < n; i++) {
         size_t d = mismatch(names[i], wrong);
         if (d < least) {
-            least   = d;
+            least = d;
             nearest = names[i];
         }
     }
@@ -70,12 +70,12 @@ const char *fw_keys_nearest_word(size_t n, const char *const *names, const char 
 const char *fw_keys_nearest(const fw_section *s, const char *wrong)
 {
     const char *nearest = NULL;
-    size_t      least   = MAX_NAME;
+    size_t      least = MAX_NAME;
 
     for (size_t i = 0; i < s->n_keys; i++) {
         size_t d = mismatch(s->keys[i].name, wrong);
         if (d < least) {
-            least   = d;
+            least = d;
             nearest = s->keys[i].name;
         }
     }
@@ -92,8 +92,10 @@ void fw_keys_range(const fw_key *k, char *out, size_t size)
     char        least[96] = "", most[96] = "";
 
     out[0] = '\0';
-    if (k->kind == FW_KEY_CHOICE || k->kind == FW_KEY_FLAG || k->kind == FW_KEY_TEXT || k->kind == FW_KEY_SHAPED) return;
-    if (has_least) snprintf(least, sizeof least, "%s %.15g%s%s", k->is_open ? "more than" : "at least", k->least, gap, unit);
+    if (k->kind == FW_KEY_CHOICE || k->kind == FW_KEY_FLAG || k->kind == FW_KEY_TEXT || k->kind == FW_KEY_SHAPED)
+        return;
+    if (has_least)
+        snprintf(least, sizeof least, "%s %.15g%s%s", k->is_open ? "more than" : "at least", k->least, gap, unit);
     if (has_most) snprintf(most, sizeof most, "at most %.15g%s%s", k->most, gap, unit);
     snprintf(out, size, "%s%s%s", least, has_least && has_most ? " and " : "", most);
 }
@@ -112,12 +114,12 @@ static fw_status read_count(const fw_key *k, const char *text, uint64_t *value, 
 {
     uint64_t x = 0;
 
-    FW_CHECK(*text && strspn(text, "0123456789") == strlen(text), m, FW_E_INPUT, "\"%.*s\" is not a whole number", MAX_QUOTE,
-             text);
+    FW_CHECK(*text && strspn(text, "0123456789") == strlen(text), m, FW_E_INPUT, "\"%.*s\" is not a whole number",
+             MAX_QUOTE, text);
     for (const char *p = text; *p; p++) {
         uint64_t digit = (uint64_t)(*p - '0');
-        FW_CHECK(x <= (UINT64_MAX - digit) / 10, m, FW_E_INPUT, "\"%.*s\" is beyond the range of whole numbers", MAX_QUOTE,
-                 text);
+        FW_CHECK(x <= (UINT64_MAX - digit) / 10, m, FW_E_INPUT, "\"%.*s\" is beyond the range of whole numbers",
+                 MAX_QUOTE, text);
         x = 10 * x + digit;
     }
     FW_TRY(check_range(k, text, (double)x, m));

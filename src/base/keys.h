@@ -1,8 +1,9 @@
-/* Key tables: what a section of an input file may say, in one place that parses, checks, documents and prints it back.
+/* Key tables: what a section of an input file may say, in one place that parses, checks, documents and prints it
+ * back.
  *
- * A section is a table of keys over a plain struct; every key names its kind, unit, default, range and meaning and the
- * member's offset. Nested shapes (lists, distributions) have rows too, so that names are checked and documented from the
- * same table; their own readers read them. */
+ * A section is a table of keys over a plain struct; every key names its kind, unit, default, range and meaning and
+ * the member's offset. Nested shapes (lists, distributions) have rows too, so that names are checked and documented
+ * from the same table; their own readers read them. */
 #ifndef FW_BASE_KEYS_H
 #define FW_BASE_KEYS_H
 
@@ -57,8 +58,8 @@ fw_status fw_keys_read(const fw_key *k, const fw_units *u, const char *text, voi
 fw_status fw_keys_defaults(const fw_section *s, const fw_units *u, void *base, fw_msg *m);
 /* "more than 0 m and at most 100 m"; empty when any value will do. */
 void      fw_keys_range(const fw_key *k, char *out, size_t size);
-/* Canonical line "contact.stiffness = 2000000 N/m\n" (%.17g, so that a reader gets the same double back) of one key that
- * is not SHAPED. Returns the length as snprintf does. */
+/* Canonical line "contact.stiffness = 2000000 N/m\n" (%.17g, so that a reader gets the same double back) of one key
+ * that is not SHAPED. Returns the length as snprintf does. */
 int       fw_keys_print(const fw_section *s, const fw_key *k, const void *base, char *out, size_t size);
 
 #endif

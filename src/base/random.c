@@ -36,19 +36,19 @@ static uint32_t high(uint64_t x) { return (uint32_t)(x >> 32); }
  * share a block (2^64 blocks each); different seeds or purposes differ by an independent 128-bit value. */
 void fw_random_stream(fw_random *r, uint64_t seed, fw_purpose purpose, uint64_t id, uint64_t part)
 {
-    const uint32_t seed_key[2]   = {low(seed), high(seed)};
-    const uint32_t use[4]        = {(uint32_t)purpose, 0, 0, 0};
-    const uint32_t which[4]      = {low(id), high(id), low(part), high(part)};
+    const uint32_t seed_key[2] = {low(seed), high(seed)};
+    const uint32_t use[4] = {(uint32_t)purpose, 0, 0, 0};
+    const uint32_t which[4] = {low(id), high(id), low(part), high(part)};
     uint32_t       purpose_key[4], stream[4];
 
     fw_philox4x32_10(use, seed_key, purpose_key);
     fw_philox4x32_10(which, purpose_key, stream);
     memset(r, 0, sizeof *r);
-    r->key[0]     = stream[0];
-    r->key[1]     = stream[1];
+    r->key[0] = stream[0];
+    r->key[1] = stream[1];
     r->counter[2] = stream[2];
     r->counter[3] = stream[3];
-    r->n_used     = 4;
+    r->n_used = 4;
 }
 
 uint32_t fw_random_u32(fw_random *r)
@@ -64,7 +64,7 @@ uint32_t fw_random_u32(fw_random *r)
 double fw_random_uniform(fw_random *r)
 {
     uint64_t w0 = fw_random_u32(r), w1 = fw_random_u32(r);
-    uint64_t k  = (w1 << 32 | w0) >> 12; /* 52 bits: with the half added the numerator has 53, so no value rounds to 1 */
+    uint64_t k = (w1 << 32 | w0) >> 12; /* 52 bits: with the half added the numerator has 53, so no value rounds to 1 */
 
     return ((double)k + 0.5) * 0x1p-52;
 }
@@ -77,8 +77,8 @@ static double gsl_get_double(void *state) { return fw_random_uniform(state); }
 
 const gsl_rng_type *fw_rng_philox(void)
 {
-    static const gsl_rng_type type = {
-        "philox4x32-10", 0xffffffffUL, 0, sizeof(fw_random), gsl_set, gsl_get, gsl_get_double};
+    static const gsl_rng_type type = {"philox4x32-10", 0xffffffffUL,  0, sizeof(fw_random), gsl_set,
+                                      gsl_get,         gsl_get_double};
 
     return &type;
 }

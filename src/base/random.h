@@ -1,6 +1,6 @@
-/* Philox4x32-10 (Salmon et al., SC11), counter based: stream = f(seed, purpose, id, part), so that no realisation, tile
- * or test ever shares numbers with another and a new purpose never shifts an old one's. Wrapped as our own gsl_rng_type:
- * Random123's shipped GSL wrapper carries its counter wrongly. */
+/* Philox4x32-10 (Salmon et al., SC11), counter based: stream = f(seed, purpose, id, part), so that no realisation,
+ * tile or test ever shares numbers with another and a new purpose never shifts an old one's. Wrapped as our own
+ * gsl_rng_type: Random123's shipped GSL wrapper carries its counter wrongly. */
 #ifndef FW_BASE_RANDOM_H
 #define FW_BASE_RANDOM_H
 

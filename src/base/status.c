@@ -25,8 +25,8 @@ const char *fw_status_sentence(fw_status s) { return is_known(s) ? rows[s].sente
 
 int fw_status_exit_code(fw_status s) { return is_known(s) ? rows[s].exit_code : rows[FW_E_INTERNAL].exit_code; }
 
-/* n is what snprintf returned for a buffer of size bytes: mark a cut, so that nobody takes a half sentence for a whole one.
- * Step back over UTF-8 continuation bytes to cut between characters. */
+/* n is what snprintf returned for a buffer of size bytes: mark a cut, so that nobody takes a half sentence for a
+ * whole one. Step back over UTF-8 continuation bytes to cut between characters. */
 static void mark_cut(char *text, size_t size, int n)
 {
     static const char dots[] = "...";

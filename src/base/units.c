@@ -24,7 +24,8 @@ fw_status fw_units_open(fw_units **out, fw_msg *m)
     if (!(*out)->system) {
         free(*out);
         *out = NULL;
-        return fw_fail(m, FW_E_IO, "the unit database of UDUNITS-2 cannot be read: install its data or set UDUNITS2_XML_PATH");
+        return fw_fail(m, FW_E_IO,
+                       "the unit database of UDUNITS-2 cannot be read: install its data or set UDUNITS2_XML_PATH");
     }
     return FW_OK;
 }
@@ -40,7 +41,8 @@ static bool is_digit(char c) { return c >= '0' && c <= '9'; }
 static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 static bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
-/* The end of a decimal number at s, or s when there is none. By hand, because strtod takes "nan", "inf" and "0x1p3" too. */
+/* The end of a decimal number at s, or s when there is none. By hand, because strtod takes "nan", "inf" and "0x1p3"
+ * too. */
 static const char *number_end(const char *s)
 {
     const char *p = s, *digits;
@@ -74,12 +76,12 @@ static fw_status read_number(const char *text, double *value, const char **rest,
     while (is_blank(*start)) start++;
     end = number_end(start);
     FW_CHECK(end != start, m, FW_E_INPUT, "\"%.*s\" is not a number", MAX_QUOTE, text);
-    errno    = 0;
+    errno = 0;
     double x = strtod(start, &stop);
     FW_CHECK(stop == end, m, FW_E_INPUT, "\"%.*s\" is not a decimal number", MAX_QUOTE, text);
     FW_CHECK(errno != ERANGE && isfinite(x), m, FW_E_INPUT, "\"%.*s\" is beyond the range of numbers", MAX_QUOTE, text);
     *value = x;
-    *rest  = end;
+    *rest = end;
     return FW_OK;
 }
 
@@ -90,8 +92,8 @@ fw_status fw_units_number(const char *text, double *value, fw_msg *m)
 
     FW_TRY(read_number(text, &x, &rest, m));
     while (is_blank(*rest)) rest++;
-    FW_CHECK(!*rest, m, FW_E_INPUT, "\"%.*s\": \"%.*s\" follows the number, wanted a bare number", MAX_QUOTE, text, MAX_QUOTE,
-             rest);
+    FW_CHECK(!*rest, m, FW_E_INPUT, "\"%.*s\": \"%.*s\" follows the number, wanted a bare number", MAX_QUOTE, text,
+             MAX_QUOTE, rest);
     *value = x;
     return FW_OK;
 }
@@ -100,9 +102,9 @@ fw_status fw_units_number(const char *text, double *value, fw_msg *m)
 static const char *rename_word(const char *word, size_t n)
 {
     static const char *const rows[][2] = {
-        {"deg", "degree"},        {"degs", "degree"},       {"year", "(365.25 day)"}, {"years", "(365.25 day)"},
-        {"yr", "(365.25 day)"},   {"a", "(365.25 day)"},    {"Ns", "(N.s)"},          {"kNs", "(kN.s)"},
-        {"MNs", "(MN.s)"},        {"Nm", "(N.m)"},          {"kNm", "(kN.m)"},        {"MNm", "(MN.m)"},
+        {"deg", "degree"},      {"degs", "degree"},    {"year", "(365.25 day)"}, {"years", "(365.25 day)"},
+        {"yr", "(365.25 day)"}, {"a", "(365.25 day)"}, {"Ns", "(N.s)"},          {"kNs", "(kN.s)"},
+        {"MNs", "(MN.s)"},      {"Nm", "(N.m)"},       {"kNm", "(kN.m)"},        {"MNm", "(MN.m)"},
         {"Pas", "(Pa.s)"},
     };
 
@@ -122,7 +124,8 @@ static bool rewrite_unit(const char *unit, size_t length, char *out, size_t size
             size_t word = 1;
             while (unit[i] != '%' && i + word < length && (is_letter(unit[i + word]) || unit[i + word] == '_')) word++;
             const char *new = rename_word(unit + i, word);
-            int written = new ? snprintf(out + n, size - n, "%s", new) : snprintf(out + n, size - n, "%.*s", (int)word, unit + i);
+            int written = new ? snprintf(out + n, size - n, "%s", new)
+                              : snprintf(out + n, size - n, "%.*s", (int)word, unit + i);
             if (written < 0 || (size_t)written >= size - n) return false;
             n += (size_t)written;
             i += word;
@@ -131,8 +134,8 @@ static bool rewrite_unit(const char *unit, size_t length, char *out, size_t size
         char c = unit[i], before = i ? unit[i - 1] : '\0';
         bool is_allowed;
         if (is_digit(c)) { /* an exponent, or the 1 of "1/s" */
-            is_allowed = is_letter(before) || before == '^' || before == '-' || before == '+'
-                         || (is_digit(before) && i > 1) || (i == 0 && c == '1' && (length == 1 || !is_digit(unit[1])));
+            is_allowed = is_letter(before) || before == '^' || before == '-' || before == '+' ||
+                         (is_digit(before) && i > 1) || (i == 0 && c == '1' && (length == 1 || !is_digit(unit[1])));
         } else if (c == '-' || c == '+') {
             is_allowed = (is_letter(before) || before == '^') && i + 1 < length && is_digit(unit[i + 1]);
         } else {
@@ -192,20 +195,21 @@ static fw_status convert_text(const fw_units *u, const char *text, const char *g
 {
     bool     is_affine = strcmp(unit, "degC") == 0;
     ut_unit *to = parse_unit(u, unit, strlen(unit)), *from = parse_unit(u, given, length);
-    double   y  = NAN;
+    double   y = NAN;
     bool     is_known = from != NULL, is_done = from && to && convert(from, to, is_affine, x, &y);
 
     if (from) ut_free(from);
     if (to) ut_free(to);
     FW_CHECK(to, m, FW_E_INTERNAL, "\"%s\" is no unit of a key", unit);
     FW_CHECK(is_known, m, FW_E_INPUT, "\"%.*s\": \"%.*s\" is no unit, wanted %s", MAX_QUOTE, text,
-             (int)(length < MAX_QUOTE ? length : MAX_QUOTE), given, strcmp(unit, "1") == 0 ? "a plain number or %" : unit);
+             (int)(length < MAX_QUOTE ? length : MAX_QUOTE), given,
+             strcmp(unit, "1") == 0 ? "a plain number or %" : unit);
     if (!is_done && strcmp(unit, "1") == 0) {
-        return fw_fail(m, FW_E_INPUT, "\"%.*s\": wrong unit \"%.*s\", wanted a plain number or %%", MAX_QUOTE, text, (int)length,
-                       given);
+        return fw_fail(m, FW_E_INPUT, "\"%.*s\": wrong unit \"%.*s\", wanted a plain number or %%", MAX_QUOTE, text,
+                       (int)length, given);
     }
-    FW_CHECK(is_done, m, FW_E_INPUT, "\"%.*s\": wrong unit \"%.*s\", wanted one like %s", MAX_QUOTE, text, (int)length, given,
-             unit);
+    FW_CHECK(is_done, m, FW_E_INPUT, "\"%.*s\": wrong unit \"%.*s\", wanted one like %s", MAX_QUOTE, text, (int)length,
+             given, unit);
     FW_CHECK(isfinite(y), m, FW_E_INPUT, "\"%.*s\" is beyond the range of numbers in %s", MAX_QUOTE, text, unit);
     *value = y;
     return FW_OK;
@@ -221,8 +225,8 @@ fw_status fw_units_read(const fw_units *u, const char *text, const char *unit, d
     size_t length = strlen(given);
     while (length > 0 && is_blank(given[length - 1])) length--;
     if (length == 0) {
-        FW_CHECK(strcmp(unit, "1") == 0, m, FW_E_INPUT, "\"%.*s\" has no unit, wanted for example \"%.*s %s\"", MAX_QUOTE, text,
-                 (int)(given - text < MAX_QUOTE ? given - text : MAX_QUOTE), text, unit);
+        FW_CHECK(strcmp(unit, "1") == 0, m, FW_E_INPUT, "\"%.*s\" has no unit, wanted for example \"%.*s %s\"",
+                 MAX_QUOTE, text, (int)(given - text < MAX_QUOTE ? given - text : MAX_QUOTE), text, unit);
         *value = x;
         return FW_OK;
     }

@@ -41,7 +41,7 @@ static void counter_carries(void **state)
         uint32_t start[4] = {7, 7, 7, 7}, next[4] = {8, 7, 7, 7}, block[4];
         for (int i = 0; i < words; i++) {
             start[i] = 0xffffffff;
-            next[i]  = 0;
+            next[i] = 0;
             if (i + 1 < 4) next[i + 1] = 8;
         }
         memcpy(r.counter, start, sizeof start);
@@ -74,7 +74,8 @@ static void gsl_gives_the_same_words(void **state)
 }
 
 /* Any change of seed, purpose, id or part gives other numbers, and the two are uncorrelated: for n = 4000 pairs of
- * independent uniforms the correlation has standard deviation 1/sqrt(n), so 5 of them is a bound one in 1.7 million breaks. */
+ * independent uniforms the correlation has standard deviation 1/sqrt(n), so 5 of them is a bound one in 1.7 million
+ * breaks. */
 static void streams_are_independent(void **state)
 {
     static const struct {
@@ -120,8 +121,8 @@ static void neighbouring_streams_differ_in_their_state(void **state)
     for (uint64_t i = 0; i < 256; i++) fw_random_stream(&r[i], 9, FW_STREAM_FIELD, i / 16, i % 16);
     for (int i = 0; i < 256; i++) {
         for (int j = i + 1; j < 256; j++) {
-            assert_false(memcmp(r[i].key, r[j].key, sizeof r[i].key) == 0
-                         && memcmp(r[i].counter, r[j].counter, sizeof r[i].counter) == 0);
+            assert_false(memcmp(r[i].key, r[j].key, sizeof r[i].key) == 0 &&
+                         memcmp(r[i].counter, r[j].counter, sizeof r[i].counter) == 0);
         }
     }
 }

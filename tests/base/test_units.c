@@ -80,13 +80,15 @@ static void quantities(void **state)
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         double x = NAN;
         fw_msg m = {""};
-        if (fw_units_read(*state, rows[i].text, rows[i].unit, &x, &m) != FW_OK) fail_msg("%s: %s", rows[i].text, m.text);
+        if (fw_units_read(*state, rows[i].text, rows[i].unit, &x, &m) != FW_OK)
+            fail_msg("%s: %s", rows[i].text, m.text);
         if (x != rows[i].value) fail_msg("%s gave %.17g %s", rows[i].text, x, rows[i].unit);
     }
     for (size_t i = 0; i < sizeof near / sizeof near[0]; i++) {
         double x = NAN;
         fw_msg m = {""};
-        if (fw_units_read(*state, near[i].text, near[i].unit, &x, &m) != FW_OK) fail_msg("%s: %s", near[i].text, m.text);
+        if (fw_units_read(*state, near[i].text, near[i].unit, &x, &m) != FW_OK)
+            fail_msg("%s: %s", near[i].text, m.text);
         if (!(fabs(x - near[i].value) < 1e-11)) fail_msg("%s gave %.17g %s", near[i].text, x, near[i].unit);
     }
 }
@@ -94,16 +96,16 @@ static void quantities(void **state)
 static void refusals(void **state)
 {
     static const char *const rows[][2] = {
-        {"7.4", "m"},        {"7.4 s", "m"},       {"7.4 m m", "m"},       {"7.4 m 3", "m"},     {"7.4 m3", "m"},
-        {"7.4 m,", "m"},     {"7,4 m", "m"},       {"nan m", "m"},         {"NaN m", "m"},       {"inf m", "m"},
-        {"-inf m", "m"},     {".inf m", "m"},      {".nan m", "m"},        {"1e999 m", "m"},     {"-1e999 m", "m"},
-        {"1e-999 m", "m"},   {"1e307 km", "m"},    {"0x10 m", "m"},        {"", "m"},            {"   ", "m"},
-        {"m", "m"},          {"- 5 m", "m"},       {"--5 m", "m"},         {"1e m", "m"},        {"5 furlongs!", "m"},
-        {"5 nosuch", "m"},   {"5 m @ 2", "m"},     {"5 m since 2", "m"},   {"5 lg(re m)", "m"},  {"5 (m)", "m"},
-        {"5 2 m", "m"},      {"5 *m", "m"},        {"5 m/", "m"},          {"5 m^", "m"},        {"5 m-", "m"},
-        {"1.2.3 m", "m"},    {"40 %%", "1"},       {"40 m", "1"},          {"0.4 rad", "1"},     {"40 deg", "1"},
-        {"90", "deg"},       {"90 %", "deg"},      {"90 1", "deg"},        {"3 1/s", "rad/s"},   {"-5", "degC"},
-        {"-5 C m", "degC"},  {"5 \xc2\xb5m", "m"}, {"5 m\x01", "m"},       {"5\nm", "m"},        {"1_000 m", "m"},
+        {"7.4", "m"},        {"7.4 s", "m"},       {"7.4 m m", "m"},     {"7.4 m 3", "m"},    {"7.4 m3", "m"},
+        {"7.4 m,", "m"},     {"7,4 m", "m"},       {"nan m", "m"},       {"NaN m", "m"},      {"inf m", "m"},
+        {"-inf m", "m"},     {".inf m", "m"},      {".nan m", "m"},      {"1e999 m", "m"},    {"-1e999 m", "m"},
+        {"1e-999 m", "m"},   {"1e307 km", "m"},    {"0x10 m", "m"},      {"", "m"},           {"   ", "m"},
+        {"m", "m"},          {"- 5 m", "m"},       {"--5 m", "m"},       {"1e m", "m"},       {"5 furlongs!", "m"},
+        {"5 nosuch", "m"},   {"5 m @ 2", "m"},     {"5 m since 2", "m"}, {"5 lg(re m)", "m"}, {"5 (m)", "m"},
+        {"5 2 m", "m"},      {"5 *m", "m"},        {"5 m/", "m"},        {"5 m^", "m"},       {"5 m-", "m"},
+        {"1.2.3 m", "m"},    {"40 %%", "1"},       {"40 m", "1"},        {"0.4 rad", "1"},    {"40 deg", "1"},
+        {"90", "deg"},       {"90 %", "deg"},      {"90 1", "deg"},      {"3 1/s", "rad/s"},  {"-5", "degC"},
+        {"-5 C m", "degC"},  {"5 \xc2\xb5m", "m"}, {"5 m\x01", "m"},     {"5\nm", "m"},       {"1_000 m", "m"},
         {"5 12/s", "rad/s"}, {"auto", "m"},
     };
 
