@@ -1,0 +1,87 @@
+/* Sums of windows: gamma sums exactly, lognormal CV 1.5 against the normal limit and against a simulation. */
+#include "statistics/life.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "statistics/near.h"
+
+static void sums_of_gamma_windows_are_exact(void **state)
+{
+    (void)state;
+    const double shape = 0.7, scale = 2e-4; /* raw moments of the gamma law: scale^k shape (shape + 1) ... */
+    fw_life      w = fw_life_of_moments(shape * scale, shape * (shape + 1) * scale * scale,
+                                        shape * (shape + 1) * (shape + 2) * scale * scale * scale);
+    assert_near(w.skewness, 2 / sqrt(shape), 1e-12);
+    const double ns[] = {1, 3, 50, 20000}, ps[] = {0.01, 0.5, 0.9, 0.99};
+    for (size_t i = 0; i < 4; i++)
+        for (size_t k = 0; k < 4; k++)
+            assert_near(fw_life_percentile(&w, ns[i], ps[k]), gsl_cdf_gamma_Pinv(ps[k], shape * ns[i], scale), 1e-7);
+}
+
+static void many_windows_are_normal(void **state)
+{
+    (void)state;
+    /* lognormal with median 1: E X^k = exp(k^2 sigma^2 / 2) */
+    double  s2 = pow(lognormal_sigma(1.5), 2), n = 4e8;
+    fw_life w = fw_life_of_moments(exp(s2 / 2), exp(2 * s2), exp(4.5 * s2));
+    assert_near(w.sd / w.mean, 1.5, 1e-12);
+    assert_near(w.skewness, 3 * 1.5 + pow(1.5, 3), 1e-12); /* of a lognormal: 3 CV + CV^3 */
+    assert_near((fw_life_percentile(&w, n, 0.99) - n * w.mean) / (sqrt(n) * w.sd), 2.3263478740408408, 1e-3);
+    assert_near((fw_life_percentile(&w, n, 0.05) - n * w.mean) / (sqrt(n) * w.sd), -1.6448536269514722, 1e-3);
+}
+
+static void lognormal_windows_match_a_simulation(void **state)
+{
+    (void)state;
+    /* 700 windows: skewness of the sum 0.298, just inside FW_LIFE_SKEWNESS */
+    enum { N = 700, LIVES = 10000 };
+    double    sigma = lognormal_sigma(1.5), s2 = sigma * sigma;
+    fw_life   w = fw_life_of_moments(exp(s2 / 2), exp(2 * s2), exp(4.5 * s2));
+    fw_random r;
+    double   *sums = calloc(LIVES, sizeof *sums);
+    assert_true(fw_life_is_smooth(&w, N) && !fw_life_is_smooth(&w, N / 2.0));
+    fw_random_stream(&r, 4, FW_STREAM_TEST, 0, 0);
+    for (size_t i = 0; i < LIVES; i++)
+        for (size_t k = 0; k < N; k += 2) { /* Box-Muller, independent of the quantile function */
+            double radius = sigma * sqrt(-2 * log(fw_random_uniform(&r))),
+                   angle = 6.283185307179586 * fw_random_uniform(&r);
+            sums[i] += exp(radius * cos(angle)) + exp(radius * sin(angle));
+        }
+    qsort(sums, LIVES, sizeof *sums, compare_doubles);
+    const double ps[] = {0.05, 0.5, 0.9, 0.95, 0.99};
+    for (size_t k = 0; k < 5; k++) assert_near(fw_life_percentile(&w, N, ps[k]), sums[(size_t)(ps[k] * LIVES)], 0.01);
+    free(sums);
+}
+
+static void the_allowance_is_reached_when_the_percentile_says_so(void **state)
+{
+    (void)state;
+    fw_life w = {2, 3, 4};
+    double  n = fw_life_windows_to(&w, 1000, 2000, 0.9);
+    assert_near(fw_life_percentile(&w, n, 0.9), 1000, 1e-9);
+    assert_true(n < 500); /* the upper percentile gets there before the mean */
+    assert_true(fw_life_windows_to(&w, 1e9, 2000, 0.9) == INFINITY);
+    assert_true(fw_life_windows_to(&w, 1, 0, 0.9) == INFINITY);
+    fw_life constant = fw_life_of_moments(2, 4, 8); /* no scatter */
+    assert_near(fw_life_percentile(&constant, 10, 0.99), 20, 1e-15);
+    assert_near(fw_life_windows_to(&constant, 10, 100, 0.99), 5, 1e-9);
+    fw_life nothing = fw_life_of_moments(0, 0, 0);
+    assert_true(fw_life_percentile(&nothing, 10, 0.99) == 0 && fw_life_windows_to(&nothing, 1, 100, 0.5) == INFINITY);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(sums_of_gamma_windows_are_exact),
+                                       cmocka_unit_test(many_windows_are_normal),
+                                       cmocka_unit_test(lognormal_windows_match_a_simulation),
+                                       cmocka_unit_test(the_allowance_is_reached_when_the_percentile_says_so)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
