@@ -1,0 +1,315 @@
+#include "study/answer.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "study/rows.h"
+
+/* Options with their defaults put in, and the points they name. */
+typedef struct question {
+    size_t  n_percentiles, n_points, law;
+    double *percentiles; /* (n_percentiles); owned */
+    double  confidence;
+    size_t *numbers;  /* (n_points) from 1; owned */
+    double *bearings; /* (n_points) [deg]; owned */
+} question;
+
+static void free_question(question *q)
+{
+    free(q->percentiles);
+    free(q->numbers);
+    free(q->bearings);
+}
+
+/* The usual four and the one that the campaign's precision is about, ascending. */
+static void usual_percentiles(question *q, const fw_campaign *c)
+{
+    const double usual[] = {50, 90, 95, 99};
+    double       own = c->precision.quantity == FW_QUANTITY_PERCENTILE ? c->precision.percentile : 50;
+    bool         is_own_in = !(own > 0 && own < 100);
+    for (size_t k = 0; k < 4; k++) {
+        if (!is_own_in && own < usual[k]) q->percentiles[q->n_percentiles++] = own;
+        is_own_in = is_own_in || own <= usual[k];
+        q->percentiles[q->n_percentiles++] = usual[k];
+    }
+    if (!is_own_in) q->percentiles[q->n_percentiles++] = own;
+}
+
+static fw_status choose_percentiles(question *q, const fw_campaign *c, const fw_answer_options *o, fw_msg *m)
+{
+    FW_TRY(fw_alloc(&q->percentiles, o->n_percentiles + 5, sizeof *q->percentiles, "percentiles", m));
+    if (o->n_percentiles == 0) usual_percentiles(q, c);
+    for (size_t k = 0; k < o->n_percentiles; k++) {
+        FW_CHECK(o->percentiles[k] > 0 && o->percentiles[k] < 100, m, FW_E_ARG, "percentile %g is outside (0, 100)",
+                 o->percentiles[k]);
+        q->percentiles[q->n_percentiles++] = o->percentiles[k];
+    }
+    return FW_OK;
+}
+
+static fw_status choose_points(question *q, const fw_campaign *c, const fw_answer_options *o, fw_msg *m)
+{
+    q->n_points = o->n_points ? o->n_points : c->points.n;
+    FW_CHECK(q->n_points > 0, m, FW_E_ARG, "the campaign has no measuring points");
+    FW_TRY(fw_alloc(&q->numbers, q->n_points, sizeof *q->numbers, "measuring points", m));
+    FW_TRY(fw_alloc(&q->bearings, q->n_points, sizeof *q->bearings, "bearings of measuring points", m));
+    for (size_t i = 0; i < q->n_points; i++) {
+        size_t number = o->n_points ? o->points[i] : i + 1;
+        FW_CHECK(number >= 1 && number <= c->points.n, m, FW_E_ARG,
+                 "measuring point %zu does not exist; the campaign has 1 .. %zu", number, c->points.n);
+        q->numbers[i] = number;
+        q->bearings[i] = c->points.bearing[number - 1];
+    }
+    return FW_OK;
+}
+
+static fw_status read_options(question *q, const fw_campaign *c, const fw_answer_options *options, fw_msg *m)
+{
+    const fw_answer_options  defaults = {0};
+    const fw_answer_options *o = options ? options : &defaults;
+    q->law = o->law;
+    q->confidence = o->confidence > 0 ? o->confidence : c->precision.confidence > 0 ? c->precision.confidence : 0.95;
+    FW_CHECK(q->confidence < 1, m, FW_E_ARG, "a confidence of %g is not below 1", q->confidence);
+    FW_TRY(choose_percentiles(q, c, o, m));
+    return choose_points(q, c, o, m);
+}
+
+/* Stream the records through, one in memory at a time. */
+static fw_status collect(fw_depth *d, const fw_campaign *c, const fw_answer_source *source, fw_msg *m)
+{
+    fw_record r;
+    FW_TRY(fw_record_init(&r, c->model.n_arcs, c->model.n_laws, m));
+    fw_status s = FW_OK;
+    for (uint64_t id = 0; id < source->n && s == FW_OK; id++) {
+        s = source->read(source->self, id, &r, m);
+        if (s == FW_OK) s = fw_depth_add(d, &r, m);
+    }
+    fw_record_free(&r);
+    return s;
+}
+
+static double choose_design_percentile(const fw_campaign *c, const question *q)
+{
+    double wanted = c->precision.quantity == FW_QUANTITY_PERCENTILE && c->precision.percentile > 0
+                        ? c->precision.percentile
+                        : 90;
+    double largest = 0;
+    for (size_t k = 0; k < q->n_percentiles; k++) {
+        if (q->percentiles[k] == wanted) return wanted;
+        largest = fmax(largest, q->percentiles[k]);
+    }
+    return largest;
+}
+
+static void fill_percentiles(const question *q, size_t i, const fw_window *w, fw_percentile_row *rows)
+{
+    for (size_t k = 0; k < q->n_percentiles; k++) {
+        double      p = q->percentiles[k] / 100;
+        fw_interval v = fw_window_interval(w, p, q->confidence);
+        rows[k] = (fw_percentile_row){.point = q->numbers[i],
+                                      .bearing_deg = q->bearings[i],
+                                      .percentile = q->percentiles[k],
+                                      .depth_mm = fw_window_percentile(w, p),
+                                      .low_mm = v.low,
+                                      .high_mm = v.high,
+                                      .coverage = v.coverage,
+                                      .method = w->is_sample ? "order statistics" : "averaged CDF"};
+    }
+}
+
+static void fill_point(const question *q, size_t i, const fw_window *w, fw_point_row *row)
+{
+    const fw_depth *d = w->depth;
+    fw_interval     mean = fw_window_mean_interval(w, q->confidence);
+    double          load = w->load * (double)d->n; /* sum, like impact and high: shares are ratios of means */
+    *row = (fw_point_row){.point = q->numbers[i],
+                          .bearing_deg = q->bearings[i],
+                          .mean_mm = w->moment[1],
+                          .mean_low_mm = mean.low,
+                          .mean_high_mm = mean.high,
+                          .path_km = d->path[i] / (double)d->n,
+                          .impact_share = load > 0 ? d->impact[i] / load : NAN,
+                          .high_share = load > 0 ? d->high[i] / load : NAN};
+}
+
+static fw_status fill_life(fw_answer *a, const fw_campaign *c, const question *q, size_t i, const fw_window *w,
+                           fw_msg *m)
+{
+    fw_life_row *rows = a->life + i * q->n_percentiles;
+    for (size_t k = 0; k < q->n_percentiles; k++) {
+        rows[k].point = q->numbers[i];
+        rows[k].bearing_deg = q->bearings[i];
+    }
+    return fw_service_rows(c, w, q->n_percentiles, q->percentiles, q->confidence, rows, m);
+}
+
+/* ---- the relative half-width that stop rule and table share
+ * ------------------------------------------------------- */
+
+typedef struct point_width {
+    double value, half; /* [mm]; half INFINITY when an end does not exist */
+} point_width;
+
+static point_width width_of(double value, double low, double high)
+{
+    return (point_width){value, isnan(low) || isnan(high) ? INFINITY : 0.5 * (high - low)};
+}
+
+/* The worst over points, see answer.h; *largest is the index of the largest value. */
+static double worst_width(size_t n, const point_width *widths, size_t *largest)
+{
+    *largest = 0;
+    for (size_t i = 0; i < n; i++)
+        if (widths[i].value > widths[*largest].value) *largest = i;
+    double least = 0.1 * widths[*largest].value, worst = 0;
+    for (size_t i = 0; i < n; i++) {
+        double against = fmax(widths[i].value, least);
+        worst = fmax(worst, against > 0 ? widths[i].half / against : INFINITY);
+    }
+    return worst;
+}
+
+static fw_status answered_width(fw_answer *a, const fw_campaign *c, size_t n_percentiles, fw_msg *m)
+{
+    point_width *widths = NULL;
+    size_t       n = 0, largest = 0;
+    a->half_width = INFINITY;
+    FW_TRY(fw_alloc(&widths, a->n_percentiles, sizeof *widths, "interval widths", m));
+    if (c->precision.quantity == FW_QUANTITY_MEAN) {
+        for (size_t i = 0; i < a->n_points; i++)
+            widths[n++] = width_of(a->points[i].mean_mm, a->points[i].mean_low_mm, a->points[i].mean_high_mm);
+    } else {
+        for (size_t i = 0; i < a->n_points * n_percentiles; i++) {
+            const fw_percentile_row *row = &a->percentiles[i];
+            if (row->percentile == a->design_percentile)
+                widths[n++] = width_of(row->depth_mm, row->low_mm, row->high_mm);
+        }
+    }
+    if (n > 0) a->half_width = worst_width(n, widths, &largest);
+    free(widths);
+    return FW_OK;
+}
+
+/* ---- the whole answer
+ * --------------------------------------------------------------------------------------------- */
+
+static fw_status allocate(fw_answer *a, const fw_campaign *c, const question *q, fw_msg *m)
+{
+    a->n_points = q->n_points;
+    a->n_percentiles = q->n_points * q->n_percentiles;
+    a->n_life = c->service.is_asked ? a->n_percentiles : 0;
+    FW_TRY(fw_alloc(&a->points, a->n_points, sizeof *a->points, "rows of points", m));
+    FW_TRY(fw_alloc(&a->percentiles, a->n_percentiles, sizeof *a->percentiles, "rows of percentiles", m));
+    return fw_alloc(&a->life, a->n_life, sizeof *a->life, "rows of service life", m);
+}
+
+static const fw_percentile_row *find_governing(const fw_answer *a, size_t n_percentiles)
+{
+    const fw_percentile_row *worst = NULL;
+    for (size_t i = 0; i < a->n_points * n_percentiles; i++) {
+        const fw_percentile_row *row = &a->percentiles[i];
+        if (row->percentile == a->design_percentile && (!worst || row->depth_mm > worst->depth_mm)) worst = row;
+    }
+    return worst;
+}
+
+/* One point after the other, so that only one point's law is in memory; the governing one is made again for the
+ * ledger. */
+static fw_status answer(fw_answer *a, const fw_campaign *c, const question *q, const fw_depth *d, fw_msg *m)
+{
+    fw_window w;
+    FW_TRY(allocate(a, c, q, m));
+    for (size_t i = 0; i < q->n_points; i++) {
+        FW_TRY(fw_window_make(&w, d, i, m));
+        fill_percentiles(q, i, &w, a->percentiles + i * q->n_percentiles);
+        fill_point(q, i, &w, &a->points[i]);
+        fw_status s = a->n_life ? fill_life(a, c, q, i, &w, m) : FW_OK;
+        fw_window_free(&w);
+        FW_TRY(s);
+    }
+    FW_TRY(answered_width(a, c, q->n_percentiles, m));
+    const fw_percentile_row *governing = find_governing(a, q->n_percentiles);
+    a->governing_point = governing->point;
+    FW_TRY(fw_window_make(&w, d, (size_t)(governing - a->percentiles) / q->n_percentiles, m));
+    fw_status s = fw_ledger_rows(a, c, &w, governing, m);
+    fw_window_free(&w);
+    return s;
+}
+
+fw_status fw_answer_make(fw_answer *out, const fw_campaign *c, const fw_answer_source *source,
+                         const fw_answer_options *o, fw_msg *m)
+{
+    question q;
+    fw_depth d;
+    memset(out, 0, sizeof *out);
+    memset(&q, 0, sizeof q);
+    memset(&d, 0, sizeof d);
+    fw_status s = read_options(&q, c, o, m);
+    if (s == FW_OK) s = fw_depth_make(&d, c, q.law, q.n_points, q.bearings, m);
+    if (s == FW_OK) s = collect(&d, c, source, m);
+    if (s == FW_OK) {
+        out->n = source->n;
+        out->n_failed = d.n_failed;
+        out->confidence = q.confidence;
+        out->design_percentile = choose_design_percentile(c, &q);
+        s = answer(out, c, &q, &d, m);
+    }
+    fw_depth_free(&d);
+    free_question(&q);
+    if (s != FW_OK) fw_answer_free(out);
+    return s;
+}
+
+void fw_answer_free(fw_answer *a)
+{
+    if (!a) return;
+    free(a->percentiles);
+    free(a->points);
+    free(a->life);
+    free(a->ledger);
+    memset(a, 0, sizeof *a);
+}
+
+/* ---- the stop rule's question
+ * -------------------------------------------------------------------------------------- */
+
+static fw_status measure_width(const fw_campaign *c, const fw_depth *d, size_t point, point_width *out, fw_msg *m)
+{
+    fw_window w;
+    FW_TRY(fw_window_make(&w, d, point, m));
+    bool        is_mean = c->precision.quantity == FW_QUANTITY_MEAN;
+    double      p = c->precision.percentile / 100;
+    fw_interval v = is_mean ? fw_window_mean_interval(&w, c->precision.confidence)
+                            : fw_window_interval(&w, p, c->precision.confidence);
+    *out = width_of(is_mean ? w.moment[1] : fw_window_percentile(&w, p), v.low, v.high);
+    fw_window_free(&w);
+    return FW_OK;
+}
+
+fw_status fw_answer_half_width(const fw_campaign *c, const fw_answer_source *source, double *half_width,
+                               double *value_mm, size_t *governing, fw_msg *m)
+{
+    fw_depth     d;
+    point_width *widths = NULL;
+    size_t       largest = 0;
+    double       value = NAN;
+    *half_width = INFINITY;
+    FW_CHECK(c->points.n > 0, m, FW_E_ARG, "the campaign has no measuring points");
+    FW_TRY(fw_depth_make(&d, c, 0, c->points.n, c->points.bearing, m));
+    fw_status s = collect(&d, c, source, m);
+    if (s == FW_OK && d.n > 0) { /* with nothing but failures the width stays infinite */
+        s = fw_alloc(&widths, d.n_points, sizeof *widths, "interval widths", m);
+        for (size_t i = 0; i < d.n_points && s == FW_OK; i++) s = measure_width(c, &d, i, &widths[i], m);
+        if (s == FW_OK) {
+            *half_width = worst_width(d.n_points, widths, &largest);
+            value = widths[largest].value;
+        }
+    }
+    if (value_mm) *value_mm = value;
+    if (governing) *governing = largest + 1;
+    free(widths);
+    fw_depth_free(&d);
+    return s;
+}

@@ -1,0 +1,82 @@
+/* From records to answers: percentiles of the window depth per measuring point, means, shares, service life, ledger.
+ * Knows no MPI, no files and no printing. */
+#ifndef FW_STUDY_ANSWER_H
+#define FW_STUDY_ANSWER_H
+
+#include "floewear/campaign.h"
+
+/* Reads record id (0 .. n-1) into r, which is initialised with the campaign's sizes. */
+typedef struct fw_answer_source {
+    uint64_t n;
+    fw_status (*read)(void *self, uint64_t id, fw_record *r, fw_msg *m);
+    void *self;
+} fw_answer_source;
+
+typedef struct fw_answer_options {
+    size_t        n_percentiles;
+    const double *percentiles; /* (n_percentiles) 0 < p < 100 */
+    size_t        n_points;    /* 0: all */
+    const size_t *points;      /* (n_points) numbers from 1 */
+    size_t        law;         /* index into the campaign's laws */
+    double        confidence;  /* 0.95 */
+} fw_answer_options;
+
+typedef struct fw_percentile_row {
+    size_t      point; /* from 1 */
+    double      bearing_deg, percentile;
+    double      depth_mm, low_mm, high_mm; /* an end that does not exist is NAN */
+    double      coverage;                  /* attained (order statistics) or nominal (averaged CDF); NAN: no interval */
+    const char *method;                    /* "order statistics" (T and direction constant) or "averaged CDF"
+                                            * (statistics/averaged.h says why that and not sectioning) */
+} fw_percentile_row;
+
+typedef struct fw_point_row {
+    size_t point;
+    double bearing_deg, mean_mm, mean_low_mm, mean_high_mm, path_km, impact_share, high_share; /* high: above 5 MPa */
+} fw_point_row;
+
+typedef struct fw_life_row {
+    size_t point;
+    double bearing_deg, percentile, depth_mm, low_mm, high_mm;
+    double windows;        /* in the life */
+    double allowance_year; /* in which the percentile uses up the allowance, from 1; NAN: never, or none asked */
+} fw_life_row;
+
+typedef struct fw_ledger_row {
+    char   row[48];                             /* "sampling", "discretisation", ... */
+    double amount;                              /* relative amount in the governing design number; NAN: not measured */
+    char   shrinks_with[96], cost_to_halve[96]; /* no clock in them: the same for every run of a campaign */
+    double cost_to_halve_cpu_s;                 /* on the machines that computed the records; NAN: not measured */
+} fw_ledger_row;
+
+typedef struct fw_answer {
+    uint64_t n, n_failed;
+    double   confidence;
+    double   design_percentile; /* the campaign's precision percentile, else 90 if asked for, else the largest */
+    size_t   governing_point;   /* largest design percentile among the answered points, from 1 */
+    double   half_width;        /* as fw_answer_half_width says, over the answered points */
+    size_t   n_percentiles;
+    fw_percentile_row *percentiles; /* point-major */
+    size_t             n_points;
+    fw_point_row      *points;
+    size_t             n_life;
+    fw_life_row       *life;
+    size_t             n_ledger;
+    fw_ledger_row     *ledger;
+} fw_answer;
+
+/* o: NULL or zeros stand for 50, 90, 95, 99 % and the precision's own percentile, all points, the first law, the
+ * precision's confidence. FW_E_ARG: a percentile or point outside its range. FW_E_FAILURES: no realisation
+ * succeeded. Failed realisations: see depth.h. */
+fw_status fw_answer_make(fw_answer *out, const fw_campaign *c, const fw_answer_source *source,
+                         const fw_answer_options *o, fw_msg *m);
+void      fw_answer_free(fw_answer *a);
+
+/* The stop rule's question: half-width of the interval of the campaign's precision quantity, relative to its value, the
+ * worst over the campaign's points; INFINITY when an end does not exist. A point below a tenth of the largest one is
+ * measured against that tenth: the lee side, where a window's wear is nearly always 0, must not keep a campaign
+ * running. value_mm and governing (from 1; both may be NULL) are those of the point with the largest value. */
+fw_status fw_answer_half_width(const fw_campaign *c, const fw_answer_source *source, double *half_width,
+                               double *value_mm, size_t *governing, fw_msg *m);
+
+#endif

@@ -1,0 +1,102 @@
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "study/rows.h"
+
+static void write_text(char *to, size_t size, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
+static void write_text(char *to, size_t size, const char *fmt, ...)
+{
+    va_list args;
+    va_start(args, fmt);
+    vsnprintf(to, size, fmt, args);
+    va_end(args);
+}
+
+#define SAY(field, ...) write_text((field), sizeof(field), __VA_ARGS__)
+
+static void sampling(fw_ledger_row *row, const fw_window *w, const fw_percentile_row *g)
+{
+    size_t n = w->depth->n + w->depth->n_failed;
+    SAY(row->row, "sampling");
+    row->amount = g->depth_mm > 0 ? (g->high_mm - g->low_mm) / (2 * g->depth_mm) : NAN;
+    if (isfinite(row->amount)) {
+        SAY(row->shrinks_with, "realisations, as 1/sqrt(n)");
+    } else {
+        SAY(row->shrinks_with, "realisations: %zu are too few for both ends of P%g", n, g->percentile);
+    }
+    SAY(row->cost_to_halve, "%zu realisations more (%.3g force evaluations)", 3 * n, 3 * w->depth->evaluations);
+    row->cost_to_halve_cpu_s = 3 * w->depth->cpu_s;
+}
+
+static void discretisation(fw_ledger_row *row, const fw_campaign *c, const fw_window *w)
+{
+    SAY(row->row, "discretisation");
+    row->amount = c->model.accuracy;
+    SAY(row->shrinks_with, "accuracy: (the promise; measured energy truncation %.2g on average)",
+        w->depth->truncation / (double)w->depth->n);
+    SAY(row->cost_to_halve, "not measured");
+}
+
+static void failed_runs(fw_ledger_row *row, const fw_window *w, const fw_percentile_row *g)
+{
+    SAY(row->row, "failed runs");
+    row->amount = 0;
+    if (w->depth->n_failed == 0) {
+        SAY(row->shrinks_with, "none failed");
+        SAY(row->cost_to_halve, "none");
+        return;
+    }
+    double low, high;
+    fw_window_failure_ends(w, g->percentile / 100, &low, &high);
+    row->amount = isfinite(high) && g->depth_mm > 0 ? (high - low) / (2 * g->depth_mm) : NAN;
+    SAY(row->shrinks_with, "%zu of %zu failed; counted as 0 and as infinity they give P%g %.3g .. %.3g mm",
+        w->depth->n_failed, w->depth->n + w->depth->n_failed, g->percentile, low, high);
+    SAY(row->cost_to_halve, "find the cause: run them again with --only-id");
+}
+
+static void unmeasured(fw_ledger_row *row, const char *name, const char *shrinks_with)
+{
+    SAY(row->row, "%s", name);
+    row->amount = NAN;
+    SAY(row->shrinks_with, "not measured; %s", shrinks_with);
+    SAY(row->cost_to_halve, "not measured");
+}
+
+static void life_assumption(fw_ledger_row *row, const fw_campaign *c)
+{
+    unmeasured(row, "life: independent windows", "windows that resemble their neighbours scatter a life more");
+    if (c->service.persistence != 0)
+        SAY(row->shrinks_with, "not measured; persistence %g is read, not applied: life scatter is understated",
+            c->service.persistence);
+}
+
+static void between_years(fw_ledger_row *row, const fw_campaign *c)
+{
+    unmeasured(row, "between years", "no year_to_year_cv is given");
+    if (c->service.year_to_year_cv != 0)
+        SAY(row->shrinks_with, "not measured; year_to_year_cv %g is read, not applied", c->service.year_to_year_cv);
+}
+
+fw_status fw_ledger_rows(fw_answer *a, const fw_campaign *c, const fw_window *w, const fw_percentile_row *governing,
+                         fw_msg *m)
+{
+    FW_TRY(fw_alloc(&a->ledger, 9, sizeof *a->ledger, "rows of the ledger", m));
+    for (size_t i = 0; i < 9; i++) a->ledger[i].cost_to_halve_cpu_s = NAN;
+    fw_ledger_row *row = a->ledger;
+    sampling(row++, w, governing);
+    discretisation(row++, c, w);
+    failed_runs(row++, w, governing);
+    unmeasured(row++, "window, domain and warm-up", "exposure and strip settings");
+    unmeasured(row++, "ice field against scenario", "more realisations");
+    unmeasured(row++, "law and its scatter", "laboratory and field data (a published fit has R2 66 %)");
+    unmeasured(row++, "switched-off effects", "switching them on (effects:)");
+    if (c->service.is_asked) {
+        between_years(row++, c);
+        life_assumption(row++, c);
+    }
+    a->n_ledger = (size_t)(row - a->ledger);
+    return FW_OK;
+}
