@@ -1,0 +1,15 @@
+#include "floewear/campaign.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void fw_campaign_free(fw_campaign *c)
+{
+    if (!c) return;
+    free(c->text);
+    free(c->settings);
+    free(c->points.bearing);
+    free(c->not_applied);
+    fw_site_free(&c->site);
+    memset(c, 0, sizeof *c);
+}
