@@ -1,0 +1,239 @@
+/* `floewear plan CAMPAIGN.yaml`: what a run would do and cost, measured on a pilot of its first realisations; no results. */
+#include <argp.h>
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_randist.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "cli/commands.h"
+#include "cli/config.h"
+#include "cli/json.h"
+#include "effects/effects.h"
+#include "floewear/campaign.h"
+#include "realisation/accuracy.h"
+
+enum { MAX_SETS = 64, KEY_SET = 1000, KEY_JSON, KEY_PILOT, KEY_SEED };
+
+typedef struct arguments {
+    const char *campaign;
+    const char *sets[MAX_SETS];
+    size_t      n_sets;
+    bool        is_json;
+    long        pilot;
+    int64_t     seed;
+} arguments;
+
+static error_t parse(int key, char *arg, struct argp_state *state)
+{
+    arguments *a = state->input;
+    char      *end;
+    switch (key) {
+    case KEY_SET:
+        if (a->n_sets == MAX_SETS) argp_error(state, "at most %d --set", (int)MAX_SETS);
+        a->sets[a->n_sets++] = arg;
+        return 0;
+    case KEY_JSON: a->is_json = true; return 0;
+    case KEY_PILOT:
+        a->pilot = strtol(arg, &end, 10);
+        if (*end || end == arg || a->pilot < 0 || a->pilot > 10000) argp_error(state, "--pilot takes a whole number from 0 to 10000, not '%s'", arg);
+        return 0;
+    case KEY_SEED:
+        a->seed = strtoll(arg, &end, 10);
+        if (*end || end == arg || a->seed < 0) argp_error(state, "--seed takes a whole number, not '%s'", arg);
+        return 0;
+    case ARGP_KEY_ARG:
+        if (a->campaign) argp_error(state, "one campaign file, not also '%s'", arg);
+        a->campaign = arg;
+        return 0;
+    case ARGP_KEY_NO_ARGS: argp_error(state, "a campaign file is needed"); return 0;
+    default: return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static const struct argp_option OPTIONS[] = {
+    {"pilot", KEY_PILOT, "N", 0, "realisations of the pilot (default 16; 0: none)", 0},
+    {"set", KEY_SET, "KEY=VALUE", 0, "override a key by its dotted path", 0},
+    {"seed", KEY_SEED, "N", 0, "override the seed", 0},
+    {"json", KEY_JSON, NULL, 0, "print JSON", 0},
+    {0},
+};
+static const struct argp ARGP = {OPTIONS, parse, "CAMPAIGN.yaml", "Shows the effects the scenes call for and why, the accuracy settings, and the cost "
+                                 "and precision that a pilot predicts. Writes no results.", NULL, NULL, NULL};
+
+typedef struct pilot {
+    size_t n, n_failed, n_wear;
+    double cpu, cpu_max;     /* [s] mean and largest */
+    double mean_log, sd_log; /* of ln(mean wear load over the ring) */
+    double mean_speed;       /* [m/s] */
+} pilot;
+
+static fw_status run_pilot(const fw_campaign *c, size_t n, pilot *p, fw_msg *m)
+{
+    double sum = 0, sum2 = 0;
+    for (size_t id = 0; id < n; id++) {
+        fw_scenario s;
+        fw_record   r;
+        fw_campaign_scenario(c, id, &s);
+        FW_TRY(fw_realise(&c->model, &s, NULL, &r, m));
+        p->n++;
+        p->cpu += r.host_cpu_s;
+        p->cpu_max = fmax(p->cpu_max, r.host_cpu_s);
+        p->mean_speed += r.speed;
+        double load = 0;
+        for (size_t k = 0; k < r.n_arcs; k++) load += fw_record_load(&r, 0, FW_RING_LOAD)[k];
+        if (r.status != FW_OK) p->n_failed++;
+        else if (load > 0) {
+            double l = log(load);
+            p->n_wear++, sum += l, sum2 += l * l;
+        }
+        fw_record_free(&r);
+    }
+    if (p->n) p->cpu /= (double)p->n, p->mean_speed /= (double)p->n;
+    if (p->n_wear > 1) {
+        double k = (double)p->n_wear;
+        p->mean_log = sum / k, p->sd_log = sqrt(fmax(0, (sum2 - sum * sum / k) / (k - 1)));
+    }
+    return FW_OK;
+}
+
+/* Relative half-width of a percentile of a lognormal from n samples: z sqrt(q (1 - q) / n) / (f(x) x), f(x) x = phi(z_q) / sd.
+ * Averaging over temperature and direction makes the truth narrower. */
+static double predicted_half_width(const fw_campaign *c, const pilot *p, double n)
+{
+    double z = gsl_cdf_ugaussian_Pinv(0.5 + 0.5 * c->precision.confidence);
+    if (c->precision.quantity == FW_QUANTITY_MEAN) return z * sqrt(expm1(p->sd_log * p->sd_log) / n);
+    double q = c->precision.percentile / 100;
+    return z * sqrt(q * (1 - q) / n) * p->sd_log / gsl_ran_ugaussian_pdf(gsl_cdf_ugaussian_Pinv(q));
+}
+
+static bool effect_state(const fw_campaign *c, const fw_effect *e, char *reason, size_t n)
+{
+    bool is_on = (c->model.effects & e->bit) != 0, is_needed = fw_effects_needed(e, &c->model, reason, n);
+    if (is_on && !is_needed) snprintf(reason, n, "asked for by the file; the scene does not call for it");
+    if (!is_on && is_needed) snprintf(reason, n, "switched off by the file: %s", e->off);
+    return is_on;
+}
+
+typedef struct forecast {
+    double n, half_width, cpu_s, n_wanted; /* realisations of the run, what they reach, cost; realisations that the precision wants */
+} forecast;
+
+static forecast predict(const fw_campaign *c, const pilot *p)
+{
+    forecast f = {.n = (double)c->precision.max_realisations, .half_width = NAN, .n_wanted = NAN};
+    if (p->n_wear > 1) {
+        double one = predicted_half_width(c, p, 1);
+        if (c->precision.half_width > 0) {
+            f.n_wanted = ceil(one * one / (c->precision.half_width * c->precision.half_width));
+            f.n        = fmin(f.n, fmax(f.n_wanted, 100));
+        }
+        f.half_width = one / sqrt(f.n);
+    }
+    f.cpu_s = p->n ? f.n * p->cpu : NAN;
+    return f;
+}
+
+static void print_json(const fw_campaign *c, const pilot *p, const forecast *f, double speed)
+{
+    fw_json          j = fw_json_onto(stdout);
+    const fw_effect *e;
+    size_t           n = fw_effects_list(&e);
+    fw_json_begin_object(&j);
+    fw_json_key(&j, "campaign"), fw_json_string(&j, c->name);
+    fw_json_key(&j, "effects");
+    fw_json_begin_array(&j);
+    for (size_t i = 0; i < n; i++) {
+        char reason[200];
+        bool is_on = effect_state(c, &e[i], reason, sizeof reason);
+        fw_json_begin_object(&j);
+        fw_json_key(&j, "name"), fw_json_string(&j, e[i].name);
+        fw_json_key(&j, "on"), fw_json_bool(&j, is_on);
+        fw_json_key(&j, "reason"), fw_json_string(&j, reason);
+        fw_json_end(&j);
+    }
+    fw_json_end(&j);
+    fw_accuracy_line lines[16];
+    size_t           n_lines = fw_accuracy_lines(&c->model, speed, lines, 16);
+    fw_json_key(&j, "accuracy");
+    fw_json_begin_array(&j);
+    for (size_t i = 0; i < n_lines; i++) {
+        fw_json_begin_object(&j);
+        fw_json_key(&j, "name"), fw_json_string(&j, lines[i].name);
+        fw_json_key(&j, "value"), fw_json_number(&j, lines[i].value);
+        fw_json_key(&j, "unit"), fw_json_string(&j, lines[i].unit);
+        fw_json_key(&j, "why"), fw_json_string(&j, lines[i].why);
+        fw_json_end(&j);
+    }
+    fw_json_end(&j);
+    fw_json_key(&j, "pilot");
+    fw_json_begin_object(&j);
+    fw_json_key(&j, "n"), fw_json_integer(&j, (int64_t)p->n);
+    fw_json_key(&j, "failed"), fw_json_integer(&j, (int64_t)p->n_failed);
+    fw_json_key(&j, "cpu_s_mean"), fw_json_number(&j, p->n ? p->cpu : NAN);
+    fw_json_key(&j, "cpu_s_max"), fw_json_number(&j, p->n ? p->cpu_max : NAN);
+    fw_json_key(&j, "sd_of_log_load"), fw_json_number(&j, p->n_wear > 1 ? p->sd_log : NAN);
+    fw_json_end(&j);
+    fw_json_key(&j, "predicted");
+    fw_json_begin_object(&j);
+    fw_json_key(&j, "realisations"), fw_json_number(&j, f->n);
+    fw_json_key(&j, "realisations_wanted"), fw_json_number(&j, f->n_wanted);
+    fw_json_key(&j, "half_width"), fw_json_number(&j, f->half_width);
+    fw_json_key(&j, "cpu_s"), fw_json_number(&j, f->cpu_s);
+    fw_json_end(&j);
+    fw_json_key(&j, "not_applied");
+    fw_json_begin_array(&j);
+    for (size_t i = 0; i < c->n_not_applied; i++) fw_json_string(&j, c->not_applied[i]);
+    fw_json_end(&j);
+    fw_json_end(&j);
+}
+
+static void print_text(const fw_campaign *c, const pilot *p, const forecast *f, double speed)
+{
+    const fw_effect *e;
+    size_t           n = fw_effects_list(&e);
+    printf("plan of campaign %s\n\neffects\n", c->name);
+    for (size_t i = 0; i < n; i++) {
+        char reason[200];
+        bool is_on = effect_state(c, &e[i], reason, sizeof reason);
+        printf("  %-13s %-3s  %s\n", e[i].name, is_on ? "on" : "off", reason);
+    }
+    fw_accuracy_line lines[16];
+    size_t           n_lines = fw_accuracy_lines(&c->model, speed, lines, 16);
+    printf("\naccuracy %g %% of a window's depth, at %.3g m/s\n", 100 * c->model.accuracy, speed);
+    for (size_t i = 0; i < n_lines; i++) printf("  %-13s %10.4g %-4s  %s\n", lines[i].name, lines[i].value, lines[i].unit, lines[i].why);
+    if (p->n) {
+        printf("\npilot of %zu realisations: %.3g CPU s each in the mean, %.3g at most, %zu failed\n", p->n, p->cpu, p->cpu_max, p->n_failed);
+        if (p->n_wear > 1) printf("  spread between windows: %.2f in the log of the wear load over the ring\n", p->sd_log);
+        printf("\npredicted\n");
+        if (isfinite(f->n_wanted)) printf("  %.0f realisations reach a half-width of %.3g %%", f->n_wanted, 100 * c->precision.half_width);
+        if (isfinite(f->n_wanted)) printf(f->n_wanted > (double)c->precision.max_realisations ? ": more than max_realisations\n" : "\n");
+        printf("  a run of %.0f realisations costs %.3g CPU s: %.3g s on 1 core, %.3g s on 2, %.3g s on 16", f->n, f->cpu_s, f->cpu_s, f->cpu_s / 2,
+               f->cpu_s / 16);
+        if (isfinite(f->half_width)) printf("; half-width about %.2g %%", 100 * f->half_width);
+        printf("\n  (lognormal spread of the pilot; averaging over temperature and direction can only make it narrower)\n");
+    }
+    for (size_t i = 0; i < c->n_not_applied; i++) printf("%s%s is read and checked but not applied in this version\n", i ? "" : "\n", c->not_applied[i]);
+}
+
+int fw_cmd_plan(int argc, char **argv)
+{
+    arguments a = {.pilot = 16, .seed = -1};
+    argp_parse(&ARGP, argc, argv, 0, NULL, &a);
+    fw_campaign c = {0};
+    fw_msg      m = {""};
+    pilot       p = {0};
+    fw_status   s = fw_config_campaign(&c, a.campaign, a.n_sets, a.sets, a.seed, &m);
+    if (s == FW_OK) s = run_pilot(&c, (size_t)a.pilot, &p, &m);
+    if (s == FW_OK) {
+        fw_scenario sc;
+        fw_campaign_scenario(&c, 0, &sc);
+        forecast f     = predict(&c, &p);
+        double   speed = p.n ? p.mean_speed : sc.speed;
+        if (a.is_json) print_json(&c, &p, &f, speed);
+        else print_text(&c, &p, &f, speed);
+    } else {
+        fprintf(stderr, "floewear plan: %s\n", m.text[0] ? m.text : fw_status_sentence(s));
+    }
+    fw_campaign_free(&c);
+    return fw_status_exit_code(s);
+}

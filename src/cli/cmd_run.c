@@ -1,0 +1,403 @@
+/* floewear run: a campaign from its file to percentiles, alone or under mpirun; the same command again goes on.
+ *
+ *   all ranks   arguments, campaign file
+ *   rank 0      NAME.journal -> what is there -> fw_campaign_run -> answers -> NAME.h5 -> table or JSON on stdout
+ *   the others  fw_campaign_serve, silently: what goes wrong there is told to rank 0, which says it once */
+#include <argp.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/memory.h"
+#include "cli/commands.h"
+#include "cli/config.h"
+#include "cli/progress_line.h"
+#include "cli/record_print.h"
+#include "cli/report_table.h"
+#include "cli/run_files.h"
+
+typedef struct run_arguments {
+    const char  *campaign, *out;
+    const char **sets; /* (n_sets) */
+    size_t       n_sets, sets_capacity;
+    int64_t      seed;    /* < 0: the file's */
+    int64_t      only_id; /* < 0: the whole campaign */
+    double       budget_s;
+    bool         is_fresh, is_quiet, is_json;
+} run_arguments;
+
+enum { KEY_SET = 256, KEY_SEED, KEY_BUDGET, KEY_FRESH, KEY_JSON, KEY_ONLY_ID };
+
+static const struct argp_option run_options[] = {
+    {"output", 'o', "OUT", 0, "write OUT.journal and OUT.h5 (default: the campaign's name, in the current folder)", 0},
+    {"set", KEY_SET, "KEY=VALUE", 0, "change one key of the file, as in ice.concentration=60%; may be repeated", 0},
+    {"seed", KEY_SEED, "N", 0, "instead of the file's seed", 0},
+    {"time-budget", KEY_BUDGET, "TIME", 0, "stop in good order after this much wall-clock time, as in 2h or 90min", 0},
+    {"fresh", KEY_FRESH, NULL, 0, "start anew; an old journal is kept as OUT.journal.old", 0},
+    {"quiet", 'q', NULL, 0, "no progress on stderr", 0},
+    {"json", KEY_JSON, NULL, 0, "results as JSON instead of tables", 0},
+    {"only-id", KEY_ONLY_ID, "N", 0, "run realisation N alone, print its record, write nothing", 0},
+    {0}};
+
+static const char run_doc[] =
+    "Run a campaign and print its design percentiles. Under mpirun all ranks share the work. Run the same command again "
+    "to go on after a stop.\vExit codes: 0 done, 2 wrong input, 3 too many failed realisations, 4 input or output error, "
+    "75 stopped early (signal or time budget).";
+
+static bool run_integer(const char *text, int64_t *out)
+{
+    char *end;
+
+    errno = 0;
+    *out  = strtoll(text, &end, 10);
+    return errno == 0 && end != text && *end == '\0' && *out >= 0;
+}
+
+static error_t run_parse(int key, char *text, struct argp_state *state)
+{
+    run_arguments *a = state->input;
+    fw_msg         m = {.text = ""};
+
+    switch (key) {
+    case 'o': a->out = text; return 0;
+    case 'q': a->is_quiet = true; return 0;
+    case KEY_FRESH: a->is_fresh = true; return 0;
+    case KEY_JSON: a->is_json = true; return 0;
+    case KEY_SET:
+        if (!strchr(text, '=')) {
+            argp_error(state, "--set %s: KEY=VALUE is wanted", text);
+            return EINVAL;
+        }
+        if (fw_grow(&a->sets, &a->sets_capacity, a->n_sets + 1, sizeof *a->sets, "--set", &m) != FW_OK) return ENOMEM;
+        a->sets[a->n_sets++] = text;
+        return 0;
+    case KEY_SEED:
+        if (run_integer(text, &a->seed)) return 0;
+        argp_error(state, "--seed %s: a whole number from 0 to %" PRId64 " is wanted", text, INT64_MAX);
+        return EINVAL;
+    case KEY_ONLY_ID:
+        if (run_integer(text, &a->only_id)) return 0;
+        argp_error(state, "--only-id %s: a realisation's number from 0 on is wanted", text);
+        return EINVAL;
+    case KEY_BUDGET:
+        if (fw_config_duration(text, &a->budget_s, &m) == FW_OK && a->budget_s > 0.0) return 0;
+        argp_error(state, "--time-budget %s: %s", text, m.text[0] ? m.text : "more than 0 s is wanted");
+        return EINVAL;
+    case ARGP_KEY_ARG:
+        if (state->arg_num > 0) {
+            argp_error(state, "one campaign file is wanted, not also %s", text);
+            return EINVAL;
+        }
+        a->campaign = text;
+        return 0;
+    case ARGP_KEY_END:
+        if (a->campaign) return 0;
+        argp_error(state, "which campaign file?");
+        return EINVAL;
+    default: return ARGP_ERR_UNKNOWN;
+    }
+}
+
+/* --- rank 0 ------------------------------------------------------------------------------------------------------- */
+
+/* What the live line and the stop rule need while the campaign goes on. */
+typedef struct run_session {
+    const fw_campaign *campaign;
+    fw_run_files       files;
+    fw_progress_line   line;
+    double             estimated, estimate_cost; /* when the last live estimate was made, what it took [s] */
+    uint64_t           estimated_n;
+} run_session;
+
+static double run_seconds(void)
+{
+    struct timespec t;
+
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void run_quantity(const fw_campaign *c, char *out, size_t size)
+{
+    if (c->precision.quantity == FW_QUANTITY_MEAN) {
+        snprintf(out, size, "mean");
+    } else {
+        snprintf(out, size, "P%g", c->precision.percentile);
+    }
+}
+
+/* "P90 2.31e-04 mm +- 12 % at point 5" from the first n realisations. */
+static fw_status run_estimate(run_session *s, uint64_t n, char *out, size_t size, double *half_width, fw_msg *m)
+{
+    const fw_campaign *c      = s->campaign;
+    fw_answer_source   source = fw_run_files_answer(&s->files, n);
+    double             value  = NAN;
+    size_t             point  = 0;
+    char               quantity[32], interval[32];
+
+    FW_TRY(fw_answer_half_width(c, &source, half_width, &value, &point, m));
+    run_quantity(c, quantity, sizeof quantity);
+    snprintf(interval, sizeof interval, isfinite(*half_width) ? "+- %.2g %%" : "(no interval yet)", 100.0 * *half_width);
+    if (point > 0) {
+        snprintf(out, size, "%s %.3g mm %s at point %zu", quantity, value, interval, point);
+    } else {
+        snprintf(out, size, "%s %.3g mm %s", quantity, value, interval);
+    }
+    return FW_OK;
+}
+
+/* The estimate may use any complete prefix: it decides nothing. It is refreshed every 2 s at most and takes at most a
+ * fiftieth of rank 0's time. */
+static void run_show(void *self, const fw_progress *p)
+{
+    run_session *s   = self;
+    double       now = run_seconds(), half_width;
+    fw_msg       m   = {.text = ""};
+
+    if (p->prefix >= 2 && p->prefix != s->estimated_n && now - s->estimated > fmax(2.0, 50.0 * s->estimate_cost)) {
+        /* An estimate that cannot be made is no reason to end a campaign; the looks report what is wrong. */
+        if (run_estimate(s, p->prefix, s->line.estimate, sizeof s->line.estimate, &half_width, &m) != FW_OK) {
+            s->line.estimate[0] = '\0';
+        }
+        s->estimated     = run_seconds();
+        s->estimate_cost = s->estimated - now;
+        s->estimated_n   = p->prefix;
+    }
+    fw_progress_line_show(&s->line, p);
+}
+
+static fw_status run_look(void *self, uint64_t n, bool *is_enough, fw_msg *m)
+{
+    run_session     *s          = self;
+    fw_answer_source source     = fw_run_files_answer(&s->files, n);
+    double           half_width = INFINITY;
+
+    FW_TRY(fw_answer_half_width(s->campaign, &source, &half_width, NULL, NULL, m));
+    *is_enough = half_width <= s->campaign->precision.half_width;
+    return FW_OK;
+}
+
+/* Failed realisations are told in any case: how to see each again stands beside it. */
+static void run_list_failures(run_session *s, uint64_t n)
+{
+    const fw_model *model  = &s->campaign->model;
+    uint64_t        n_told = 0, n_failed = 0;
+    fw_record       r = {.id = 0};
+    fw_msg          m;
+
+    if (fw_record_init(&r, model->n_arcs, model->n_laws, &m) != FW_OK) return;
+    for (uint64_t id = 0; id < n; id++) {
+        if (fw_journal_read(s->files.journal, id, &r, &m) != FW_OK || r.status == FW_OK) continue;
+        n_failed++;
+        if (n_told++ < 10) {
+            fprintf(stderr, "failed: id %" PRIu64 " (seed %" PRIu64 "): %s; --only-id %" PRIu64 " runs it again\n", id,
+                    s->campaign->seed, r.cause, id);
+        }
+    }
+    if (n_failed > 10) fprintf(stderr, "failed: %" PRIu64 " more\n", n_failed - 10);
+    fw_record_free(&r);
+}
+
+/* Answers, results file and table of the first n realisations. */
+static fw_status run_answer(run_session *s, uint64_t n, const run_arguments *a, fw_msg *m)
+{
+    fw_answer_source source  = fw_run_files_answer(&s->files, n);
+    fw_record_source records = fw_run_files_records(&s->files, n);
+    static const double percentiles[] = {50, 90, 95, 99};
+    fw_answer_options   options       = {.n_percentiles = sizeof percentiles / sizeof percentiles[0],
+                                         .percentiles   = percentiles,
+                                         .confidence    = s->campaign->precision.confidence};
+    fw_answer        answer;
+    fw_status        status;
+
+    FW_TRY(fw_answer_make(&answer, s->campaign, &source, &options, m));
+    status = fw_report_write(s->files.results_path, s->campaign, &records, &answer, m);
+    if (status == FW_OK) {
+        if (a->is_json) {
+            fw_report_print_json(stdout, s->campaign, &answer);
+        } else {
+            fw_report_print_table(stdout, s->campaign, &answer);
+        }
+        if (fflush(stdout) != 0 || ferror(stdout)) status = fw_fail(m, FW_E_IO, "stdout: %s", strerror(errno));
+    }
+    fw_answer_free(&answer);
+    return status;
+}
+
+static void run_say_not_applied(const fw_campaign *c)
+{
+    for (size_t i = 0; i < c->n_not_applied; i++) {
+        fprintf(stderr, "not applied in this version: %s\n", c->not_applied[i]);
+    }
+}
+
+/* The campaign itself, with its journal open. */
+static fw_status run_campaign(run_session *s, const run_arguments *a, fw_msg *m)
+{
+    const fw_campaign *c      = s->campaign;
+    fw_run_result      result = {0};
+    fw_msg             later  = {.text = ""};
+    fw_status          status, written = FW_OK;
+    fw_run             run = {.campaign      = c,
+                              .have          = s->files.have,
+                              .n_have        = s->files.n_have,
+                              .have_failed   = s->files.have_failed,
+                              .n_have_failed = s->files.n_have_failed,
+                              .sink          = fw_run_files_sink(&s->files),
+                              .watcher       = {.show = run_show, .self = s},
+                              .only_id       = -1};
+
+    if (c->precision.half_width > 0.0) run.stop = (fw_stop_rule){.look = run_look, .self = s};
+    fw_progress_line_start(&s->line, stderr, a->is_quiet);
+    if (s->files.n_have && !a->is_quiet) {
+        fprintf(stderr, "%s: going on from %zu of %" PRIu64 " realisations\n", s->files.journal_path, s->files.n_have,
+                c->precision.max_realisations);
+    }
+    status = fw_campaign_run(&run, &result, m);
+    fw_progress_line_end(&s->line);
+
+    if (result.n_failed) run_list_failures(s, result.n_prefix);
+    if (status != FW_OK && status != FW_E_STOPPED && status != FW_E_FAILURES) return status;
+    if (result.n_prefix > 0) {
+        written = run_answer(s, result.n_prefix, a, &later);
+        if (written == FW_OK && !a->is_quiet) {
+            fprintf(stderr, "%s: the first %" PRIu64 " realisations\n", s->files.results_path, result.n_prefix);
+        }
+    }
+    if (status == FW_E_STOPPED) {
+        fw_msg why = *m;
+
+        fw_fail(m, status, "%s with %" PRIu64 " of %" PRIu64 " realisations in %s; run the same command again to go on",
+                why.text, result.n_done, c->precision.max_realisations, s->files.journal_path);
+    }
+    if (status == FW_E_FAILURES) {
+        fw_fail(m, status, "more than %" PRIu64 " (precision.max_failed) of the first %" PRIu64 " realisations failed",
+                c->precision.max_failed, result.n_prefix);
+    }
+    if (written != FW_OK) {
+        *m = later;
+        return written;
+    }
+    return status;
+}
+
+/* --- one realisation ---------------------------------------------------------------------------------------------- */
+
+typedef struct run_printer {
+    const fw_campaign *campaign;
+    bool               is_json;
+    fw_status          status; /* of the realisation */
+} run_printer;
+
+static fw_status run_print_record(void *self, const fw_record *r, fw_msg *m)
+{
+    run_printer *p = self;
+
+    (void)m;
+    p->status = r->status;
+    if (p->is_json) {
+        fw_record_print_json(stdout, p->campaign, r);
+    } else {
+        fw_record_print_text(stdout, r);
+    }
+    return FW_OK;
+}
+
+static fw_status run_only(const fw_campaign *c, const run_arguments *a, fw_msg *m)
+{
+    run_printer   printer = {.campaign = c, .is_json = a->is_json};
+    fw_run_result result;
+    fw_run        run = {.campaign = c,
+                         .sink     = {.append = run_print_record, .self = &printer},
+                         .only_id  = a->only_id};
+
+    FW_TRY(fw_campaign_run(&run, &result, m));
+    if (printer.status != FW_OK) {
+        return fw_fail(m, printer.status, "realisation %" PRId64 " failed", a->only_id);
+    }
+    return FW_OK;
+}
+
+/* --- all ranks ---------------------------------------------------------------------------------------------------- */
+
+static fw_status run_lead(const run_arguments *a, fw_msg *m)
+{
+    fw_campaign c;
+    run_session s = {.campaign = &c};
+    fw_msg      later = {.text = ""};
+    fw_status   status, closed;
+
+    status = fw_config_campaign(&c, a->campaign, a->n_sets, a->sets, a->seed, m);
+    if (status != FW_OK) {
+        fw_campaign_cancel();
+        return status;
+    }
+    c.precision.budget_s = a->budget_s;
+    run_say_not_applied(&c);
+    if (a->only_id >= 0) {
+        status = run_only(&c, a, m);
+        fw_campaign_free(&c);
+        return status;
+    }
+    status = fw_run_files_open(&s.files, &c, a->out, a->is_fresh, m);
+    if (status == FW_OK) {
+        status = run_campaign(&s, a, m);
+    } else {
+        fw_campaign_cancel();
+    }
+    closed = fw_run_files_close(&s.files, &later);
+    if (closed != FW_OK && (status == FW_OK || status == FW_E_STOPPED)) {
+        status = closed;
+        *m     = later;
+    }
+    fw_campaign_free(&c);
+    return status;
+}
+
+static void run_follow(const run_arguments *a)
+{
+    fw_campaign c;
+    fw_msg      m = {.text = ""};
+
+    if (fw_config_campaign(&c, a->campaign, a->n_sets, a->sets, a->seed, &m) == FW_OK) {
+        fw_campaign_serve(&c, &m);
+        fw_campaign_free(&c);
+    } else {
+        fw_campaign_serve(NULL, &m);
+    }
+}
+
+int fw_cmd_run(int argc, char **argv)
+{
+    const struct argp argp = {.options = run_options, .parser = run_parse, .args_doc = "CAMPAIGN.yaml", .doc = run_doc};
+    run_arguments     a    = {.seed = -1, .only_id = -1};
+    fw_msg            m    = {.text = ""};
+    fw_status         s;
+    int               rank = 0, n_ranks = 1;
+
+    /* Help needs no ranks, and argp ends the program after it. */
+    for (int i = 1; i < argc; i++) {
+        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-?") == 0 || strcmp(argv[i], "--usage") == 0) {
+            argp_parse(&argp, argc, argv, 0, NULL, &a);
+        }
+    }
+    s = fw_ranks_start(&argc, &argv, &rank, &n_ranks, &m);
+    if (s == FW_OK) {
+        unsigned flags = ARGP_NO_EXIT | (rank > 0 ? ARGP_NO_ERRS : 0u);
+
+        if (argp_parse(&argp, argc, argv, flags, NULL, &a) != 0) {
+            s = FW_E_INPUT; /* argp has said it on rank 0, and every rank leaves for the same reason */
+        } else if (rank == 0) {
+            s = run_lead(&a, &m);
+        } else {
+            run_follow(&a);
+        }
+    }
+    if (rank == 0 && m.text[0] && s != FW_OK) fprintf(stderr, "floewear run: %s\n", m.text);
+    fw_ranks_stop();
+    free(a.sets);
+    return rank == 0 ? fw_status_exit_code(s) : 0;
+}

@@ -1,0 +1,174 @@
+/* CSV and JSON of an answer. */
+#include <math.h>
+
+#include "cli/json.h"
+#include "cli/report_table.h"
+
+static size_t percentiles_per_point(const fw_answer *a) { return a->n_points ? a->n_percentiles / a->n_points : 0; }
+
+static void csv_number(FILE *to, double x)
+{
+    if (isfinite(x)) {
+        fprintf(to, ",%.17g", x);
+    } else {
+        fputc(',', to);
+    }
+}
+
+void fw_report_print_csv(FILE *to, const fw_campaign *c, const fw_answer *a)
+{
+    (void)c;
+    size_t n = percentiles_per_point(a);
+    fprintf(
+        to,
+        "point,bearing_deg,percentile,depth_mm,low_mm,high_mm,coverage,method,mean_mm,mean_low_mm,mean_high_mm,path_km,"
+        "impact_share,high_share,life_depth_mm,life_low_mm,life_high_mm,life_windows,allowance_year\n");
+    for (size_t i = 0; i < a->n_percentiles; i++) {
+        const fw_percentile_row *row = &a->percentiles[i];
+        const fw_point_row      *p = &a->points[i / n];
+        const fw_life_row        none = {
+                   .depth_mm = NAN, .low_mm = NAN, .high_mm = NAN, .windows = NAN, .allowance_year = NAN};
+        const fw_life_row *life = a->n_life ? &a->life[i] : &none;
+        fprintf(to, "%zu", row->point);
+        csv_number(to, row->bearing_deg);
+        csv_number(to, row->percentile);
+        csv_number(to, row->depth_mm);
+        csv_number(to, row->low_mm);
+        csv_number(to, row->high_mm);
+        csv_number(to, row->coverage);
+        fprintf(to, ",%s", row->method);
+        csv_number(to, p->mean_mm);
+        csv_number(to, p->mean_low_mm);
+        csv_number(to, p->mean_high_mm);
+        csv_number(to, p->path_km);
+        csv_number(to, p->impact_share);
+        csv_number(to, p->high_share);
+        csv_number(to, life->depth_mm);
+        csv_number(to, life->low_mm);
+        csv_number(to, life->high_mm);
+        csv_number(to, life->windows);
+        csv_number(to, life->allowance_year);
+        fputc('\n', to);
+    }
+}
+
+static void number(fw_json *j, const char *key, double x)
+{
+    fw_json_key(j, key);
+    fw_json_number(j, x);
+}
+
+static void count(fw_json *j, const char *key, uint64_t n)
+{
+    fw_json_key(j, key);
+    fw_json_integer(j, (int64_t)n);
+}
+
+static void string(fw_json *j, const char *key, const char *s)
+{
+    fw_json_key(j, key);
+    fw_json_string(j, s);
+}
+
+static void json_percentiles(fw_json *j, const fw_answer *a)
+{
+    fw_json_key(j, "percentiles");
+    fw_json_begin_array(j);
+    for (size_t i = 0; i < a->n_percentiles; i++) {
+        const fw_percentile_row *row = &a->percentiles[i];
+        fw_json_begin_object(j);
+        count(j, "point", row->point);
+        number(j, "bearing_deg", row->bearing_deg);
+        number(j, "percentile", row->percentile);
+        number(j, "depth_mm", row->depth_mm);
+        number(j, "low_mm", row->low_mm);
+        number(j, "high_mm", row->high_mm);
+        number(j, "coverage", row->coverage);
+        string(j, "method", row->method);
+        fw_json_end(j);
+    }
+    fw_json_end(j);
+}
+
+static void json_points(fw_json *j, const fw_answer *a)
+{
+    fw_json_key(j, "points");
+    fw_json_begin_array(j);
+    for (size_t i = 0; i < a->n_points; i++) {
+        const fw_point_row *row = &a->points[i];
+        fw_json_begin_object(j);
+        count(j, "point", row->point);
+        number(j, "bearing_deg", row->bearing_deg);
+        number(j, "mean_mm", row->mean_mm);
+        number(j, "mean_low_mm", row->mean_low_mm);
+        number(j, "mean_high_mm", row->mean_high_mm);
+        number(j, "path_km", row->path_km);
+        number(j, "impact_share", row->impact_share);
+        number(j, "high_share", row->high_share);
+        fw_json_end(j);
+    }
+    fw_json_end(j);
+}
+
+static void json_life(fw_json *j, const fw_answer *a)
+{
+    fw_json_key(j, "service_life");
+    fw_json_begin_array(j);
+    for (size_t i = 0; i < a->n_life; i++) {
+        const fw_life_row *row = &a->life[i];
+        fw_json_begin_object(j);
+        count(j, "point", row->point);
+        number(j, "bearing_deg", row->bearing_deg);
+        number(j, "percentile", row->percentile);
+        number(j, "depth_mm", row->depth_mm);
+        number(j, "low_mm", row->low_mm);
+        number(j, "high_mm", row->high_mm);
+        number(j, "windows", row->windows);
+        number(j, "allowance_year", row->allowance_year);
+        string(j, "assumption", "independent windows");
+        fw_json_end(j);
+    }
+    fw_json_end(j);
+}
+
+static void json_ledger(fw_json *j, const fw_answer *a)
+{
+    fw_json_key(j, "ledger");
+    fw_json_begin_array(j);
+    for (size_t i = 0; i < a->n_ledger; i++) {
+        const fw_ledger_row *row = &a->ledger[i];
+        fw_json_begin_object(j);
+        string(j, "row", row->row);
+        number(j, "amount", row->amount);
+        string(j, "shrinks_with", row->shrinks_with);
+        string(j, "cost_to_halve", row->cost_to_halve);
+        number(j, "cost_to_halve_cpu_s", row->cost_to_halve_cpu_s);
+        fw_json_end(j);
+    }
+    fw_json_end(j);
+}
+
+void fw_report_print_json(FILE *to, const fw_campaign *c, const fw_answer *a)
+{
+    fw_json j = fw_json_onto(to);
+    fw_json_begin_object(&j);
+    string(&j, "campaign", c->name);
+    count(&j, "n", a->n);
+    count(&j, "failed", a->n_failed);
+    count(&j, "seed", c->seed);
+    number(&j, "window_s", c->model.window);
+    number(&j, "confidence", a->confidence);
+    number(&j, "design_percentile", a->design_percentile);
+    count(&j, "governing_point", a->governing_point);
+    number(&j, "half_width", a->half_width);
+    json_percentiles(&j, a);
+    json_points(&j, a);
+    json_life(&j, a);
+    json_ledger(&j, a);
+    fw_json_key(&j, "not_applied");
+    fw_json_begin_array(&j);
+    for (size_t i = 0; i < c->n_not_applied; i++) fw_json_string(&j, c->not_applied[i]);
+    fw_json_end(&j);
+    string(&j, "not_modelled", "level-ice crushing at MPa; published field rates of 0.2-7 mm/year include it");
+    fw_json_end(&j);
+}

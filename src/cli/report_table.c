@@ -1,0 +1,222 @@
+#include "cli/report_table.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+#include "floewear/status.h"
+
+static size_t percentiles_per_point(const fw_answer *a) { return a->n_points ? a->n_percentiles / a->n_points : 0; }
+
+/* Power of ten taken out of a table whose largest entry is this: 5.1e-4 prints as 5.10 under "1e-4 mm". */
+typedef struct scaling {
+    int    exponent;
+    double divisor;
+} scaling;
+
+static scaling scaling_for(double largest)
+{
+    int exponent = largest > 0 && isfinite(largest) ? (int)floor(log10(largest)) : 0;
+    if (exponent >= -1 && exponent <= 3) exponent = 0; /* ordinary numbers stay as they are */
+    return (scaling){exponent, pow(10, exponent)};
+}
+
+static const char *unit_of(scaling s, char *text, size_t size)
+{
+    if (s.exponent == 0) {
+        snprintf(text, size, "mm");
+    } else {
+        snprintf(text, size, "1e%d mm", s.exponent);
+    }
+    return text;
+}
+
+/* Few characters, three digits where there are that many: 0, <.001, 0.012, 5.10, 42.1, 310; "none" for what does not
+ * exist. */
+static const char *format_number(char *text, size_t size, double x)
+{
+    if (!isfinite(x)) {
+        snprintf(text, size, "none");
+    } else if (x == 0) {
+        snprintf(text, size, "0");
+    } else if (x > 0 && x < 0.0005) {
+        snprintf(text, size, "<.001"); /* not the 0 of a point that is not touched */
+    } else {
+        snprintf(text, size, "%.*f", x < 1 ? 3 : x < 10 ? 2 : x < 100 ? 1 : 0, x);
+    }
+    return text;
+}
+
+/* "5.10 [4.42, 6.03]" */
+static void format_with_interval(char *text, size_t size, scaling s, double value, double low, double high)
+{
+    char texts[3][32];
+    snprintf(text, size, "%s [%s, %s]", format_number(texts[0], sizeof texts[0], value / s.divisor),
+             format_number(texts[1], sizeof texts[1], low / s.divisor),
+             format_number(texts[2], sizeof texts[2], high / s.divisor));
+}
+
+static void print_cell(FILE *to, const char *text, int width) { fprintf(to, "  %-*s", width, text); }
+
+static void print_share(FILE *to, double share)
+{
+    if (isfinite(share)) {
+        fprintf(to, "  %5.1f %%", 100 * share);
+    } else {
+        fprintf(to, "  %7s", "-"); /* a point that nothing touched */
+    }
+}
+
+static void print_heading(FILE *to, const fw_campaign *c, const fw_answer *a)
+{
+    double window = c->model.window;
+    fprintf(to, "%s: %" PRIu64 " realisations of %g %s", c->name, a->n, window >= 3600 ? window / 3600 : window,
+            window >= 3600 ? "h" : "s");
+    if (a->n_failed) fprintf(to, ", %" PRIu64 " failed (0 in the lower, infinite in the upper ends)", a->n_failed);
+    fprintf(to, ", seed %" PRIu64 "\n", c->seed);
+}
+
+static void print_points(FILE *to, const fw_answer *a)
+{
+    char   text[128], unit[32];
+    double largest = 0;
+    size_t n = percentiles_per_point(a);
+    for (size_t i = 0; i < a->n_percentiles; i++) largest = fmax(largest, a->percentiles[i].depth_mm);
+    for (size_t i = 0; i < a->n_points; i++) largest = fmax(largest, a->points[i].mean_mm);
+    scaling s = scaling_for(largest);
+    fprintf(to, "depth of one window in %s, [%g %% interval] by %s\n\n", unit_of(s, unit, sizeof unit),
+            100 * a->confidence, a->n_percentiles ? a->percentiles[0].method : "");
+    fprintf(to, "point bearing  mean ");
+    for (size_t k = 0; k < n; k++) {
+        snprintf(text, sizeof text, "P%g", a->percentiles[k].percentile);
+        fprintf(to, "  %-20s", text);
+    }
+    fprintf(to, "  impact   >5 MPa  path\n");
+    for (size_t i = 0; i < a->n_points; i++) {
+        const fw_point_row *p = &a->points[i];
+        fprintf(to, "%5zu %6.1f   %-5s", p->point, p->bearing_deg,
+                format_number(text, sizeof text, p->mean_mm / s.divisor));
+        for (size_t k = 0; k < n; k++) {
+            const fw_percentile_row *row = &a->percentiles[i * n + k];
+            format_with_interval(text, sizeof text, s, row->depth_mm, row->low_mm, row->high_mm);
+            fprintf(to, "  %-20s", text);
+        }
+        print_share(to, p->impact_share);
+        print_share(to, p->high_share);
+        fprintf(to, "  %.3g m\n", 1000 * p->path_km);
+    }
+}
+
+/* The design number, what it is worth, and whether the precision that was asked for is there. */
+static void print_governing(FILE *to, const fw_campaign *c, const fw_answer *a)
+{
+    for (size_t i = 0; i < a->n_percentiles; i++) {
+        const fw_percentile_row *row = &a->percentiles[i];
+        if (row->point != a->governing_point || row->percentile != a->design_percentile) continue;
+        fprintf(to, "\ngoverning: point %zu (%g deg), P%g = %.3g mm in one window", row->point, row->bearing_deg,
+                row->percentile, row->depth_mm);
+        if (isfinite(row->low_mm) && isfinite(row->high_mm)) {
+            fprintf(to, ", %g %% interval [%.3g, %.3g] mm", 100 * a->confidence, row->low_mm, row->high_mm);
+        } else {
+            fprintf(to, "; %" PRIu64 " realisations are too few for both ends of an interval", a->n);
+        }
+        if (isfinite(row->coverage))
+            fprintf(to, " (%s coverage %.1f %%)", row->method[0] == 'o' ? "attained" : "nominal", 100 * row->coverage);
+        fputc('\n', to);
+        break;
+    }
+    if (!(c->precision.half_width > 0)) return;
+    char quantity[32] = "mean";
+    if (c->precision.quantity == FW_QUANTITY_PERCENTILE)
+        snprintf(quantity, sizeof quantity, "P%g", c->precision.percentile);
+    if (c->precision.quantity == FW_QUANTITY_PERCENTILE && a->design_percentile != c->precision.percentile) return;
+    fprintf(to, "precision: %s asked to +- %.3g %%, reached ", quantity, 100 * c->precision.half_width);
+    if (isfinite(a->half_width)) {
+        fprintf(to, "+- %.3g %% at the worst of the points%s\n", 100 * a->half_width,
+                a->half_width <= c->precision.half_width ? "" : " (not enough realisations)");
+    } else {
+        fprintf(to, "none yet (not enough realisations)\n");
+    }
+}
+
+static void print_life(FILE *to, const fw_campaign *c, const fw_answer *a)
+{
+    char   text[128], unit[32];
+    double largest = 0;
+    size_t n = percentiles_per_point(a);
+    bool   has_allowance = c->service.allowance > 0;
+    if (a->n_life == 0) return;
+    for (size_t i = 0; i < a->n_life; i++) largest = fmax(largest, a->life[i].depth_mm);
+    scaling s = scaling_for(largest);
+    fprintf(to,
+            "\nservice life: %g years of %g h of ice, %.0f independent windows; depth in %s, [%g %% interval of the "
+            "mean]\n",
+            c->service.life_years, c->service.ice_hours_per_year, a->life[0].windows, unit_of(s, unit, sizeof unit),
+            100 * a->confidence);
+    if (has_allowance)
+        fprintf(to, "(year): the year in which the allowance of %g mm is used up, - if it is not\n",
+                c->service.allowance);
+    fprintf(to, "\npoint bearing");
+    for (size_t k = 0; k < n; k++) {
+        snprintf(text, sizeof text, "P%g", a->life[k].percentile);
+        print_cell(to, text, k + 1 < n ? (has_allowance ? 26 : 20) : 0);
+    }
+    fputc('\n', to);
+    for (size_t i = 0; i < a->n_points; i++) {
+        fprintf(to, "%5zu %6.1f ", a->points[i].point, a->points[i].bearing_deg);
+        for (size_t k = 0; k < n; k++) {
+            const fw_life_row *row = &a->life[i * n + k];
+            char               year[16] = "-";
+            format_with_interval(text, sizeof text, s, row->depth_mm, row->low_mm, row->high_mm);
+            if (isfinite(row->allowance_year)) snprintf(year, sizeof year, "%.0f", row->allowance_year);
+            if (has_allowance) {
+                size_t used = strlen(text);
+                snprintf(text + used, sizeof text - used, "%*s(%s)", used < 20 ? (int)(20 - used) + 1 : 1, "", year);
+            }
+            print_cell(to, text, k + 1 < n ? (has_allowance ? 26 : 20) : 0);
+        }
+        fputc('\n', to);
+    }
+}
+
+static void print_ledger(FILE *to, const fw_answer *a)
+{
+    fprintf(to, "\nledger of the governing number\n");
+    for (size_t i = 0; i < a->n_ledger; i++) {
+        const fw_ledger_row *row = &a->ledger[i];
+        fprintf(to, "  %-26s", row->row);
+        if (row->amount == 0) {
+            fprintf(to, " %8d %%  %s", 0, row->shrinks_with);
+        } else if (isfinite(row->amount)) {
+            fprintf(to, " %8.2g %%  ", 100 * row->amount);
+            fprintf(to, "shrinks with %s", row->shrinks_with);
+            fprintf(to, "; half of it costs: %s", row->cost_to_halve);
+            if (isfinite(row->cost_to_halve_cpu_s)) fprintf(to, ", %.3g CPU s", row->cost_to_halve_cpu_s);
+        } else {
+            fprintf(to, " %10s  %s", "-", row->shrinks_with);
+        }
+        fputc('\n', to);
+    }
+}
+
+static void print_limits(FILE *to, const fw_campaign *c)
+{
+    fputc('\n', to);
+    for (size_t i = 0; i < c->n_not_applied; i++) fprintf(to, "not applied in this version: %s\n", c->not_applied[i]);
+    if (c->model.effects & FW_EFFECT_FORM_DRAG)
+        fprintf(to, "assumed: form drag %g on the side area D h (the source gives the number, not the area)\n",
+                c->model.form_drag);
+    fprintf(to, "not modelled: level-ice crushing at MPa. Published field rates of 0.2-7 mm/year include it; "
+                "unbreakable floes do not.\n");
+}
+
+void fw_report_print_table(FILE *to, const fw_campaign *c, const fw_answer *a)
+{
+    print_heading(to, c, a);
+    print_points(to, a);
+    print_governing(to, c, a);
+    print_life(to, c, a);
+    print_ledger(to, a);
+    print_limits(to, c);
+}

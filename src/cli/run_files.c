@@ -1,0 +1,143 @@
+#include "cli/run_files.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/memory.h"
+#include "cli/config.h"
+
+/* "results/a.h5" and "results/a" both mean results/a.journal and results/a.h5. */
+static fw_status files_name(fw_run_files *f, const char *out, fw_msg *m)
+{
+    size_t n = strlen(out), room = sizeof f->journal_path - sizeof ".journal";
+
+    FW_CHECK(n > 0, m, FW_E_INPUT, "-o: an output name is wanted");
+    if (n > 3 && strcmp(out + n - 3, ".h5") == 0) n -= 3;
+    FW_CHECK(n > 0 && out[n - 1] != '/', m, FW_E_INPUT, "-o %s: a file name is wanted, not a folder", out);
+    FW_CHECK(n < room, m, FW_E_INPUT, "-o: the output name is longer than %zu characters", room - 1);
+    snprintf(f->journal_path, sizeof f->journal_path, "%.*s.journal", (int)n, out);
+    snprintf(f->results_path, sizeof f->results_path, "%.*s.h5", (int)n, out);
+    return FW_OK;
+}
+
+static fw_status files_check_folder(const char *path, fw_msg *m)
+{
+    char        folder[4096];
+    const char *end = strrchr(path, '/');
+    struct stat s;
+
+    if (!end) return FW_OK;
+    snprintf(folder, sizeof folder, "%.*s", end == path ? 1 : (int)(end - path), path);
+    FW_CHECK(stat(folder, &s) == 0, m, FW_E_IO, "-o: the folder %s cannot be used: %s", folder, strerror(errno));
+    FW_CHECK(S_ISDIR(s.st_mode), m, FW_E_IO, "-o: %s is not a folder", folder);
+    return FW_OK;
+}
+
+/* A results file that is there already will be replaced at the end: make sure now that this loses nothing. */
+static fw_status files_check_results(const fw_run_files *f, bool is_fresh, fw_msg *m)
+{
+    struct stat        s;
+    fw_results        *r = NULL;
+    fw_campaign        old;
+    const char        *text;
+    const char *const *sets   = NULL;
+    size_t             n_sets = 0;
+    fw_msg             why    = {.text = ""};
+    fw_status          status;
+    bool               is_same;
+
+    if (stat(f->results_path, &s) != 0) return FW_OK;
+    status = fw_results_open(&r, f->results_path, m);
+    if (status != FW_OK) {
+        fw_msg_prefix(m, "will not replace a file that is no results file of ours: ");
+        return status;
+    }
+    if (is_fresh || stat(f->journal_path, &s) == 0) { /* a journal that fits is what the results file was made from */
+        fw_results_close(r);
+        return FW_OK;
+    }
+    text   = fw_results_campaign_text(r);
+    n_sets = fw_results_sets(r, &sets);
+    status = fw_config_campaign_text(&old, f->results_path, text, strlen(text), n_sets, sets, fw_results_seed(r), &why);
+    is_same = status == FW_OK && old.hash == f->campaign->hash;
+    if (status == FW_OK) fw_campaign_free(&old);
+    fw_results_close(r);
+    FW_CHECK(is_same, m, FW_E_MISMATCH,
+             "%s holds the results of another campaign; choose another name with -o, or --fresh to replace it",
+             f->results_path);
+    return FW_OK;
+}
+
+/* What the journal holds: it may append while the campaign goes on, so ids are copied. */
+static fw_status files_index(fw_run_files *f, fw_msg *m)
+{
+    const fw_model *model = &f->campaign->model;
+    const uint64_t *ids   = fw_journal_ids(f->journal, &f->n_have);
+    fw_record       r     = {.id = 0};
+    fw_status       s;
+
+    FW_TRY(fw_alloc(&f->have, f->n_have, sizeof *f->have, "ids of the journal", m));
+    if (f->n_have) memcpy(f->have, ids, f->n_have * sizeof *ids);
+    s = fw_record_init(&r, model->n_arcs, model->n_laws, m);
+    for (size_t i = 0; i < f->n_have && s == FW_OK; i++) {
+        s = fw_journal_read(f->journal, f->have[i], &r, m);
+        if (s != FW_OK || r.status == FW_OK) continue;
+        s = fw_grow(&f->have_failed, &f->failed_capacity, f->n_have_failed + 1, sizeof *f->have_failed, "failed ids", m);
+        if (s == FW_OK) f->have_failed[f->n_have_failed++] = r.id;
+    }
+    fw_record_free(&r);
+    return s;
+}
+
+fw_status fw_run_files_open(fw_run_files *f, const fw_campaign *c, const char *out, bool is_fresh, fw_msg *m)
+{
+    *f = (fw_run_files){.campaign = c};
+    FW_TRY(files_name(f, out ? out : c->name, m));
+    FW_TRY(files_check_folder(f->journal_path, m));
+    FW_TRY(files_check_results(f, is_fresh, m));
+    FW_TRY(fw_journal_open(&f->journal, f->journal_path, c, is_fresh, m));
+    return files_index(f, m);
+}
+
+fw_status fw_run_files_close(fw_run_files *f, fw_msg *m)
+{
+    fw_status s = fw_journal_close(f->journal, m);
+
+    free(f->have);
+    free(f->have_failed);
+    memset(f, 0, sizeof *f);
+    return s;
+}
+
+static fw_status files_append(void *self, const fw_record *r, fw_msg *m)
+{
+    return fw_journal_append(((fw_run_files *)self)->journal, r, m);
+}
+
+static fw_status files_flush(void *self, fw_msg *m)
+{
+    return fw_journal_flush(((fw_run_files *)self)->journal, m);
+}
+
+static fw_status files_read(void *self, uint64_t id, fw_record *r, fw_msg *m)
+{
+    return fw_journal_read(((fw_run_files *)self)->journal, id, r, m);
+}
+
+fw_sink fw_run_files_sink(fw_run_files *f)
+{
+    return (fw_sink){.append = files_append, .flush = files_flush, .self = f};
+}
+
+fw_record_source fw_run_files_records(fw_run_files *f, uint64_t n)
+{
+    return (fw_record_source){.n = n, .read = files_read, .self = f};
+}
+
+fw_answer_source fw_run_files_answer(fw_run_files *f, uint64_t n)
+{
+    return (fw_answer_source){.n = n, .read = files_read, .self = f};
+}

@@ -1,0 +1,257 @@
+#include "cli/tables.h"
+
+#include <math.h>
+
+#include "floewear/realisation.h"
+
+#define AT(member) offsetof(fw_values, member)
+#define ANY        -INFINITY, INFINITY, false
+#define AT_LEAST(a)   (a), INFINITY, false
+#define MORE_THAN(a)  (a), INFINITY, true
+#define FROM_TO(a, b) (a), (b), false
+#define ABOVE_TO(a, b) (a), (b), true
+#define NUMBER(name, member, unit, fallback, range, meaning) \
+    {name, FW_KEY_NUMBER, AT(member), unit, fallback, range, NULL, meaning}
+#define AUTO(name, member, unit, fallback, range, meaning) \
+    {name, FW_KEY_AUTO, AT(member), unit, fallback, range, NULL, meaning}
+#define COUNT(name, member, fallback, range, meaning) \
+    {name, FW_KEY_COUNT, AT(member), NULL, fallback, range, NULL, meaning}
+#define SHAPED(name, fallback, shape, meaning) {name, FW_KEY_SHAPED, 0, NULL, fallback, ANY, shape, meaning}
+#define SECTION(variable, name, meaning, rows) \
+    const fw_section variable = {name, meaning, sizeof(rows) / sizeof(rows)[0], rows}
+
+/* ---- both files ------------------------------------------------------------------------------------------------- */
+
+static const fw_key CONTACT[] = {
+    {"law", FW_KEY_CHOICE, AT(contact_law), NULL, "spring", ANY, "spring", "contact law: spring and dashpot"},
+    NUMBER("stiffness", stiffness, "N/m", "2000 kN/m", FROM_TO(1e3, 1e12), "spring of a contact"),
+    NUMBER("damping_ratio", damping_ratio, "1", "1", FROM_TO(0, 100),
+           "dashpot over the critical one, c = ratio 2 sqrt(k m)"),
+    NUMBER("friction", friction, "1", "0.1", FROM_TO(0, 10), "Coulomb coefficient"),
+    NUMBER("slip_damping_ratio", slip_damping_ratio, "1", "1", FROM_TO(0, 100),
+           "viscous part of the friction over the normal dashpot"),
+};
+SECTION(fw_table_contact, "contact", "contact of a floe with the structure and with another floe", CONTACT);
+
+static const fw_key WATER[] = {
+    NUMBER("density", water_density, "kg/m3", "1025 kg/m3", FROM_TO(100, 2000), "density of the water"),
+    NUMBER("form_drag", form_drag, "1", "10", FROM_TO(0, 1000),
+           "drag coefficient on a floe's side area, diameter times thickness"),
+};
+SECTION(fw_table_water, "water", "water and what it does to a floe", WATER);
+
+static const fw_key RING[] = {
+    COUNT("arcs", n_arcs, "360", FROM_TO(72, 3600), "arcs that the wear is collected in all round the structure"),
+};
+SECTION(fw_table_ring, "ring", "resolution of the wear round the structure", RING);
+
+static const fw_key ABRASION[] = {
+    SHAPED("laws", "[bekker2011]", "list of names, {archard: {...}} or {power: {...}}",
+           "abrasion laws; the first one governs the stop rule and the report"),
+};
+SECTION(fw_table_abrasion, "abrasion", "from contact pressure and sliding path to depth", ABRASION);
+
+static const fw_key POWER[] = {
+    {"coefficient", FW_KEY_NUMBER, offsetof(fw_law_values, coefficient), "mm/km", NULL, MORE_THAN(0), NULL,
+     "depth per path at 1 MPa (and 1 K below zero)"},
+    {"exponent", FW_KEY_NUMBER, offsetof(fw_law_values, exponent), "1", NULL, ANY, NULL,
+     "of the pressure in MPa, more than 0 and less than 2"},
+    {"uses_temperature", FW_KEY_FLAG, offsetof(fw_law_values, uses_temperature), NULL, "off", ANY, NULL,
+     "on: pressure over the degrees below zero, as in bekker2011"},
+};
+SECTION(fw_table_power, "abrasion.laws[].power", "a power law of one's own", POWER);
+
+static const fw_key ARCHARD[] = {
+    {"coefficient", FW_KEY_NUMBER, offsetof(fw_law_values, coefficient), "mm/km", NULL, MORE_THAN(0), NULL,
+     "depth per path at 1 MPa"},
+};
+SECTION(fw_table_archard, "abrasion.laws[].archard", "depth proportional to pressure and path", ARCHARD);
+
+/* ---- campaign files --------------------------------------------------------------------------------------------- */
+
+static const fw_key CAMPAIGN[] = {
+    {"name", FW_KEY_TEXT, AT(name), NULL, "", ANY, NULL, "names the results; the file's own name when left out"},
+    SHAPED("structure", "", "map", "the structure and its measuring points"),
+    SHAPED("ice", NULL, "map", "ice and its statistics"),
+    SHAPED("current", NULL, "map", "statistics of the current"),
+    SHAPED("contact", "", "map", "contact of floes"),
+    SHAPED("water", "", "map", "water"),
+    SHAPED("effects", "auto", "auto, list of names, or {name: on/off}", "effects that act in the simulation"),
+    SHAPED("abrasion", "", "map", "abrasion laws"),
+    SHAPED("exposure", "", "map", "what one realisation simulates"),
+    SHAPED("field", "", "map", "extent of the simulated ice"),
+    SHAPED("ring", "", "map", "resolution round the structure"),
+    NUMBER("accuracy", accuracy, "1", "1 %", FROM_TO(1e-4, 0.1), "wanted discretisation error of a window's depth"),
+    SHAPED("precision", "", "map", "when there are enough realisations"),
+    SHAPED("service", "", "map", "service life; left out: none is worked out"),
+    COUNT("seed", seed, "1", FROM_TO(0, 1e18), "of every random number"),
+};
+SECTION(fw_table_campaign, "", "a campaign file", CAMPAIGN);
+
+static const fw_key STRUCTURE[] = {
+    NUMBER("diameter", diameter, "m", "7.4 m", FROM_TO(0.1, 1000), "at the waterline"),
+    SHAPED("measuring_points", "24", "number all round, or {count, spacing}",
+           "where depth is reported, numbered from 1 clockwise"),
+    NUMBER("first_bearing", first_bearing, "deg", "0 deg", FROM_TO(-360, 360),
+           "bearing of point 1: its outward normal, clockwise from north"),
+};
+SECTION(fw_table_structure, "structure", "the structure and its measuring points", STRUCTURE);
+
+static const fw_key POINTS[] = {
+    {"count", FW_KEY_COUNT, offsetof(fw_points_values, count), NULL, NULL, FROM_TO(1, 3600), NULL, "number of points"},
+    {"spacing", FW_KEY_NUMBER, offsetof(fw_points_values, spacing), "deg", NULL, ABOVE_TO(0, 360), NULL,
+     "bearing from one point to the next"},
+};
+SECTION(fw_table_points, "structure.measuring_points", "points over a part of the structure", POINTS);
+
+static const fw_key ICE[] = {
+    NUMBER("density", ice_density, "kg/m3", "900 kg/m3", FROM_TO(100, 1100), "density of the ice"),
+    SHAPED("temperature", NULL, "distribution in degC",
+           "of the ice at the contact; integrated exactly, never simulated"),
+    NUMBER("temperature_floor", temperature_floor, "K", "1.8 K", ABOVE_TO(0, 50),
+           "least distance of a temperature from 0 degC: the abrasion law is singular there"),
+    SHAPED("thickness_mixes", "[{probability: 1, classes: {0.5 m: 1, 0.7 m: 1, 0.9 m: 1, 1.1 m: 1, 1.3 m: 1}}]",
+           "list of {probability, classes, by}", "mixes of thickness; a realisation draws one"),
+    SHAPED("floe_diameter", "{distribution: uniform}", "map", "law of the diameter inside [4h, sqrt(130h - 11)]"),
+    SHAPED("concentration", "", "distribution", "share of the water that ice covers, more than 0 and at most 65 %"),
+};
+SECTION(fw_table_ice, "ice", "ice and its statistics", ICE);
+
+static const fw_key MIX[] = {
+    {"probability", FW_KEY_NUMBER, offsetof(fw_mix_values, probability), "1", NULL, FROM_TO(0, 1), NULL,
+     "of this mix; they sum to 1"},
+    SHAPED("classes", NULL, "{thickness: share}", "share of every thickness class; shares are divided by their sum"),
+    {"by", FW_KEY_CHOICE, offsetof(fw_mix_values, by), NULL, "number", ANY, "number|area",
+     "what shares are of: the number of floes, or the ice area"},
+};
+SECTION(fw_table_mix, "ice.thickness_mixes[]", "one mix of thickness classes", MIX);
+
+static const fw_key FLOE_DIAMETER[] = {
+    {"distribution", FW_KEY_CHOICE, AT(floe_distribution), NULL, "uniform", ANY, "uniform|power-law|lognormal",
+     "law of the diameter, cut to [4h, sqrt(130h - 11)]"},
+    NUMBER("exponent", floe_exponent, "1", "2", FROM_TO(-10, 10),
+           "power-law: density proportional to diameter^-exponent"),
+    NUMBER("median", floe_median, "m", "5 m", ABOVE_TO(0, 1000), "lognormal: median before the cut"),
+    NUMBER("sigma", floe_sigma, "1", "0.5", ABOVE_TO(0, 10), "lognormal: standard deviation of ln(diameter)"),
+};
+SECTION(fw_table_floe_diameter, "ice.floe_diameter", "law of floe diameters", FLOE_DIAMETER);
+
+static const fw_key CURRENT[] = {
+    SHAPED("speed", "", "distribution in m/s", "of the current, more than 0"),
+    SHAPED("direction", "0 deg", "distribution in deg, or {rose: {bearing: weight}}",
+           "where the current flows to, clockwise from north; integrated exactly, never simulated"),
+    SHAPED("joint", "", "file name",
+           "CSV with columns speed, direction, concentration, (thickness), probability; instead of the single laws"),
+};
+SECTION(fw_table_current, "current", "statistics of the current", CURRENT);
+
+static const fw_key EXPOSURE[] = {
+    NUMBER("window", window, "s", "3 h", FROM_TO(1e-3, 1e9), "time that one realisation collects wear over"),
+    AUTO("warm_up", warm_up, "s", "auto", FROM_TO(0, 1e9),
+         "time simulated before the window; 0 s: starts in a placed field"),
+};
+SECTION(fw_table_exposure, "exposure", "what one realisation simulates", EXPOSURE);
+
+static const fw_key FIELD[] = {
+    AUTO("strip_width", strip_width, "m", "auto", ABOVE_TO(0, 1e5), "width of the strip of ice that drifts past"),
+    AUTO("downstream", downstream, "m", "auto", ABOVE_TO(0, 1e5), "floes are forgotten this far behind the structure"),
+};
+SECTION(fw_table_field, "field", "extent of the simulated ice", FIELD);
+
+static const fw_key PRECISION[] = {
+    {"quantity", FW_KEY_TEXT, AT(quantity), NULL, "P90", ANY, NULL,
+     "what has to be precise: mean, or a percentile like P90"},
+    NUMBER("half_width", half_width, "1", "0 %", FROM_TO(0, 10),
+           "relative half-width of its interval at the worst point; 0: run max_realisations"),
+    NUMBER("confidence", confidence, "1", "95 %", FROM_TO(0.5, 0.9999), "of the interval"),
+    COUNT("max_realisations", max_realisations, "1000", FROM_TO(1, 1e12), "the run ends here at the latest"),
+    COUNT("max_failed", max_failed, "", FROM_TO(1, 1e12),
+          "more failed realisations end the run with exit code 3; 1 % of max_realisations when left out"),
+};
+SECTION(fw_table_precision, "precision", "when there are enough realisations", PRECISION);
+
+static const fw_key SERVICE[] = {
+    NUMBER("life", life, "year", NULL, ABOVE_TO(0, 1e4), "service life"),
+    NUMBER("ice_hours_per_year", ice_hours_per_year, "h", NULL, ABOVE_TO(0, 8784),
+           "hours a year with ice at the structure"),
+    NUMBER("year_to_year_cv", year_to_year_cv, "1", "0", FROM_TO(0, 10), "coefficient of variation of a year's factor"),
+    NUMBER("persistence", persistence, "1", "0", FROM_TO(0, 0.9999),
+           "correlation of one window's depth with the next one's"),
+    NUMBER("allowance", allowance, "mm", "0 mm", AT_LEAST(0), "depth that may wear off; 0: none given"),
+};
+SECTION(fw_table_service, "service", "service life", SERVICE);
+
+/* ---- scene files ------------------------------------------------------------------------------------------------ */
+
+static const fw_key SCENE[] = {
+    {"name", FW_KEY_TEXT, AT(name), NULL, "", ANY, NULL, "for the reader"},
+    SHAPED("structure", "", "map", "the structure"),
+    SHAPED("ice", "", "map", "density and temperature"),
+    SHAPED("current", NULL, "map", "current"),
+    SHAPED("contact", "", "map", "contact of floes"),
+    SHAPED("water", "", "map", "water"),
+    SHAPED("effects", "auto", "auto, list of names, or {name: on/off}", "effects that act in the simulation"),
+    SHAPED("abrasion", "", "map", "abrasion laws"),
+    SHAPED("ring", "", "map", "resolution round the structure"),
+    NUMBER("duration", duration, "s", NULL, FROM_TO(1e-3, 1e9), "time to simulate"),
+    NUMBER("accuracy", accuracy, "1", "1 %", FROM_TO(1e-4, 0.1), "wanted discretisation error of the depth"),
+    SHAPED("floes", NULL, "list of {x, y, diameter, thickness, vx, vy, spin}", "the floes at the start"),
+};
+SECTION(fw_table_scene, "", "a scene file", SCENE);
+
+static const fw_key SCENE_STRUCTURE[] = {
+    NUMBER("diameter", diameter, "m", "7.4 m", FROM_TO(0.1, 1000), "at the waterline; its centre is the origin"),
+};
+SECTION(fw_table_scene_structure, "structure", "the structure", SCENE_STRUCTURE);
+
+static const fw_key SCENE_ICE[] = {
+    NUMBER("density", ice_density, "kg/m3", "900 kg/m3", FROM_TO(100, 1100), "density of the ice"),
+    NUMBER("temperature", temperature, "degC", "-10 degC", FROM_TO(-100, 0), "of the ice at the contact"),
+    NUMBER("temperature_floor", temperature_floor, "K", "1.8 K", ABOVE_TO(0, 50),
+           "least distance of the temperature from 0 degC"),
+};
+SECTION(fw_table_scene_ice, "ice", "ice", SCENE_ICE);
+
+static const fw_key SCENE_CURRENT[] = {
+    NUMBER("speed", speed, "m/s", NULL, FROM_TO(0, 20), "along +x"),
+};
+SECTION(fw_table_scene_current, "current", "current", SCENE_CURRENT);
+
+#define FLOE(name, member, unit, fallback, range, meaning) \
+    {name, FW_KEY_NUMBER, offsetof(fw_floe, member), unit, fallback, range, NULL, meaning}
+static const fw_key SCENE_FLOE[] = {
+    FLOE("x", x, "m", NULL, FROM_TO(-1e6, 1e6), "centre, along the current"),
+    FLOE("y", y, "m", NULL, FROM_TO(-1e6, 1e6), "centre, to the left of the current"),
+    FLOE("diameter", diameter, "m", NULL, ABOVE_TO(0, 1000), "at most sqrt(130h - 11)"),
+    FLOE("thickness", thickness, "m", NULL, FROM_TO(0.0855, 8.04), "thickness h"),
+    FLOE("vx", vx, "m/s", "0 m/s", FROM_TO(-100, 100), "velocity along the current"),
+    FLOE("vy", vy, "m/s", "0 m/s", FROM_TO(-100, 100), "velocity to the left of the current"),
+    FLOE("spin", spin, "rad/s", "0 rad/s", FROM_TO(-1000, 1000), "anticlockwise"),
+};
+SECTION(fw_table_scene_floe, "floes[]", "one floe", SCENE_FLOE);
+
+const fw_table_listed fw_tables[] = {
+    {"campaign", &fw_table_campaign},
+    {"campaign", &fw_table_structure},
+    {"campaign", &fw_table_points},
+    {"campaign", &fw_table_ice},
+    {"campaign", &fw_table_mix},
+    {"campaign", &fw_table_floe_diameter},
+    {"campaign", &fw_table_current},
+    {"both", &fw_table_contact},
+    {"both", &fw_table_water},
+    {"both", &fw_table_abrasion},
+    {"both", &fw_table_archard},
+    {"both", &fw_table_power},
+    {"campaign", &fw_table_exposure},
+    {"campaign", &fw_table_field},
+    {"both", &fw_table_ring},
+    {"campaign", &fw_table_precision},
+    {"campaign", &fw_table_service},
+    {"scene", &fw_table_scene},
+    {"scene", &fw_table_scene_structure},
+    {"scene", &fw_table_scene_ice},
+    {"scene", &fw_table_scene_current},
+    {"scene", &fw_table_scene_floe},
+};
+const size_t fw_n_tables = sizeof fw_tables / sizeof fw_tables[0];
