@@ -102,11 +102,14 @@ static fw_status lay(run *r, const fw_scenario *sc, fw_msg *m)
 static fw_status go(run *r, double t_end, double t_all, const fw_tick *tick, fw_status *stopped, fw_msg *m)
 {
     fw_world *w = r->world;
-    while (w->t < t_end) {
+    double    told = w->ledger.force_evaluations;
+    for (size_t quiet = 1; w->t < t_end; quiet++) {
         FW_TRY(feed(r, m));
         if (r->plain) FW_TRY(fw_plain_step(r->plain, w, &r->wear, t_end, m));
         else FW_TRY(fw_kernel_step(r->kernel, w, &r->wear, t_end, m));
-        if (tick && ((uint64_t)w->ledger.macro_steps & 63) == 0) {
+        /* Some milliseconds of work: a macro-step takes from a microsecond to as many milliseconds in a jam. */
+        if (tick && (quiet % 64 == 0 || w->ledger.force_evaluations - told > 2e4)) {
+            told     = w->ledger.force_evaluations;
             *stopped = tick->call(tick->self, w->t / t_all);
             if (*stopped != FW_OK) return *stopped;
         }

@@ -75,6 +75,7 @@ fw_status fw_world_add_block(fw_world *w, size_t n, const double *x, const doubl
         return s;
     }
     w->n_blocks++;
+    w->block_changes++;
     return FW_OK;
 }
 
@@ -85,6 +86,7 @@ void fw_world_drop_blocks_beyond(fw_world *w, double x)
         if (w->blocks[i].n_left == 0 || w->blocks[i].x_min + w->drift > x) block_free(&w->blocks[i]);
         else w->blocks[kept++] = w->blocks[i];
     }
+    if (kept != w->n_blocks) w->block_changes++;
     w->n_blocks = kept;
 }
 

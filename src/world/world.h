@@ -59,6 +59,7 @@ typedef struct fw_world {
     fw_contact *contacts;      /* closed ones, ordered by (i, j) with the structure's contact of i last */
     size_t      n_blocks, block_capacity;
     fw_block   *blocks;
+    uint64_t    block_changes; /* blocks added or dropped so far: block numbers kept from before a change are stale */
     double      structure_radius; /* [m] */
     double      max_radius;    /* of any floe seen */
     uint64_t    n_touched;
