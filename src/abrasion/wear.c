@@ -34,16 +34,38 @@ void fw_wear_free(fw_wear *w)
     memset(w, 0, sizeof *w);
 }
 
-/* Lagrange interpolation through the stages. */
-static double interpolate(size_t n, const double *at, const double *value, double x)
+/* Lagrange interpolation through the stages: scale once per interval, basis once per instant, one sum per quantity. */
+typedef struct stages {
+    size_t        n;
+    const double *at;
+    double        scale[FW_WEAR_STAGES], basis[FW_WEAR_STAGES];
+} stages;
+
+static void stages_set(stages *s, size_t n, const double *at)
+{
+    s->n = n, s->at = at;
+    for (size_t i = 0; i < n; i++) {
+        double p = 1;
+        for (size_t j = 0; j < n; j++)
+            if (j != i) p *= at[i] - at[j];
+        s->scale[i] = 1 / p;
+    }
+}
+
+static void stages_go_to(stages *s, double u)
+{
+    for (size_t i = 0; i < s->n; i++) {
+        double p = s->scale[i];
+        for (size_t j = 0; j < s->n; j++)
+            if (j != i) p *= u - s->at[j];
+        s->basis[i] = p;
+    }
+}
+
+static double stages_value(const stages *s, const double *value)
 {
     double sum = 0;
-    for (size_t i = 0; i < n; i++) {
-        double p = value[i];
-        for (size_t j = 0; j < n; j++)
-            if (j != i) p *= (x - at[j]) / (at[i] - at[j]);
-        sum += p;
-    }
+    for (size_t i = 0; i < s->n; i++) sum += s->basis[i] * value[i];
     return sum;
 }
 
@@ -89,7 +111,7 @@ static void deposit(fw_wear *w, double dt, double normal, double slip, double ch
 /* The part [u0, u1] of the interval with a force. The signed law k d + c d' is smooth where the clamp at zero has a kink, so
  * its zero is found on the interpolant: a floe that leaves slides fast on its last millimetres and a step that counts
  * whole nodes there would be off by some per cent in path. */
-static void loaded_part(const fw_wear_interval *iv, double *u0, double *u1)
+static void loaded_part(stages *s, const fw_wear_interval *iv, double *u0, double *u1)
 {
     double first = iv->normal[0], last = iv->normal[iv->n_stages - 1];
     *u0 = 0, *u1 = 1;
@@ -101,7 +123,8 @@ static void loaded_part(const fw_wear_interval *iv, double *u0, double *u1)
     double lo = 0, hi = 1; /* loaded at lo when first > 0, else at hi */
     for (int n = 0; n < 40; n++) {
         double u = 0.5 * (lo + hi);
-        if ((interpolate(iv->n_stages, iv->at, iv->normal, u) > 0) == (first > 0)) lo = u;
+        stages_go_to(s, u);
+        if ((stages_value(s, iv->normal) > 0) == (first > 0)) lo = u;
         else hi = u;
     }
     if (first > 0) *u1 = lo;
@@ -116,7 +139,9 @@ void fw_wear_collect(fw_wear *w, const fw_wear_interval *iv)
     static const double WEIGHT[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
 
     double u0, u1;
-    loaded_part(iv, &u0, &u1);
+    stages at;
+    stages_set(&at, iv->n_stages, iv->at);
+    loaded_part(&at, iv, &u0, &u1);
     if (!(u1 > u0)) return;
     double turn = iv->angle[1] - iv->angle[0];
     turn -= TWO_PI * round(turn / TWO_PI);
@@ -139,9 +164,10 @@ void fw_wear_collect(fw_wear *w, const fw_wear_interval *iv)
             }
             double u      = fmin(1.0, fmax(0.0, (t - iv->since_touch) / iv->length));
             double depth  = hermite(iv->depth[0], iv->rate[0], iv->depth[1], iv->rate[1], iv->length, u);
-            double normal = interpolate(iv->n_stages, iv->at, iv->normal, u);
+            stages_go_to(&at, u);
+            double normal = stages_value(&at, iv->normal);
             if (!(depth > 0) || !(normal > 0)) continue;
-            double slip  = interpolate(iv->n_stages, iv->at, iv->slip, u);
+            double slip  = stages_value(&at, iv->slip);
             double chord = fw_lens_chord(depth, iv->radius, w->structure_radius);
             deposit(w, dt, normal, slip, chord, iv->angle[0] + turn * u, iv->thickness, u * iv->length < iv->impact_left,
                     depth > 0.1 * fmin(iv->radius, w->structure_radius));

@@ -20,9 +20,10 @@ fw_status fw_cells_build(fw_cells *c, size_t n, const double *x, const double *y
     double x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY;
     bool   is_finite = true;
     for (size_t i = 0; i < n; i++) {
-        x0 = fmin(x0, x[i * stride]), x1 = fmax(x1, x[i * stride]);
-        y0 = fmin(y0, y[i * stride]), y1 = fmax(y1, y[i * stride]);
-        is_finite = is_finite && isfinite(x[i * stride]) && isfinite(y[i * stride]);
+        double px = x[i * stride], py = y[i * stride];
+        x0 = px < x0 ? px : x0, x1 = px > x1 ? px : x1;
+        y0 = py < y0 ? py : y0, y1 = py > y1 ? py : y1;
+        is_finite = is_finite && isfinite(px) && isfinite(py);
     }
     if (n == 0) x0 = x1 = y0 = y1 = 0;
     FW_CHECK(is_finite, m, FW_E_NUMERIC, "a floe's position is not finite");

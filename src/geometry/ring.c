@@ -18,7 +18,7 @@ size_t fw_ring_cover(size_t n_arcs, double centre, double half, size_t *first, d
     double low   = (centre - half) * scale, high = (centre + half) * scale; /* in arcs, may be negative */
     if (high - low > n) high = low + n;
     double a = floor(low);
-    double k = fmod(a, n);
+    double k = a >= 0 && a < n ? a : fmod(a, n);
     if (k < 0) k += n;
     *first = (size_t)k;
     if (*first >= n_arcs) *first = 0;
@@ -28,7 +28,8 @@ size_t fw_ring_cover(size_t n_arcs, double centre, double half, size_t *first, d
         return 1;
     }
     size_t count = 0;
-    for (double from = low, edge = a + 1; from < high && count <= n_arcs; from = edge, edge += 1)
-        share[count++] = (fmin(edge, high) - from) / width;
+    double whole = 1 / width;
+    for (double from = low, edge = a + 1; from < high && count <= n_arcs; from = edge, edge += 1, count++)
+        share[count] = count > 0 && edge <= high ? whole : ((edge < high ? edge : high) - from) / width;
     return count;
 }

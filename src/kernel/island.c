@@ -18,9 +18,19 @@ static fw_member *other(fw_island *is, const fw_pair *p) { return p->b == FW_WAL
 static double stiffest(const fw_island *is)
 {
     double w = 0;
-    for (size_t k = 0; k < is->n_pairs; k++)
-        if (is->pairs[k].is_closed) w = fmax(w, is->pairs[k].law.omega);
+    for (size_t k = 0; k < is->n_closed; k++) w = fw_larger(w, is->pairs[is->closed[k]].law.omega);
     return w;
+}
+
+/* Most pairs of an island are open and many members touch nobody: who takes part in the steps is listed. */
+static void list_closed(fw_island *is)
+{
+    size_t n = 0, n_held = 0;
+    for (size_t k = 0; k < is->n_pairs; k++)
+        if (is->pairs[k].is_closed) is->closed[n++] = (int32_t)k;
+    for (size_t i = 0; i < is->n_members; i++)
+        if (is->members[i].n_closed) is->held[n_held++] = (int32_t)i;
+    is->n_held = n_held;
 }
 
 static void close_pair(fw_island *is, fw_pair *p)
@@ -59,11 +69,14 @@ static void open_pair(fw_island *is, fw_pair *p)
 /* After a touch: accelerations anew and a short first step. */
 static void restart(fw_island *is, double *h)
 {
+    list_closed(is);
     fw_stage_start(is);
     is->ledger->force_evaluations += (double)is->n_closed;
     double w = 0;
-    for (size_t k = 0; k < is->n_pairs; k++)
-        if (is->pairs[k].is_closed && is->pairs[k].since_touch == 0) w = fmax(w, is->pairs[k].law.omega);
+    for (size_t k = 0; k < is->n_closed; k++) {
+        const fw_pair *p = &is->pairs[is->closed[k]];
+        if (p->since_touch == 0) w = fw_larger(w, p->law.omega);
+    }
     if (w > 0) *h = fmin(*h, is->setup->first_step / w);
 }
 
@@ -82,16 +95,15 @@ static double attempt(fw_island *is, double h)
     size_t           last = me->n_stages - 1;
     for (size_t s = 1; s <= last; s++) fw_stage_solve(is, s, h);
     double hg = h * me->gamma, worst = 0;
-    for (size_t i = 0; i < is->n_members; i++) {
-        fw_member *m = &is->members[i];
-        if (!m->n_closed) continue;
+    for (size_t i = 0; i < is->n_held; i++) {
+        fw_member *m = &is->members[is->held[i]];
         m->x1 = m->xr + hg * m->v[last][0], m->y1 = m->yr + hg * m->v[last][1];
         double e[3] = {0, 0, 0};
         for (int q = 0; q < 3; q++) {
             m->v1[q] = m->v[last][q];
             for (size_t s = 0; s <= last; s++) e[q] += me->e[s] * m->a[s][q];
         }
-        double err = h * fmax(hypot(e[0], e[1]), m->body->radius * fabs(e[2]));
+        double err = h * fw_larger(fw_length(e[0], e[1]), m->body->radius * fabs(e[2]));
         if (!(err <= worst)) worst = err; /* keeps NaN */
     }
     fly_others(is, h);
@@ -112,7 +124,7 @@ static double first_touch(fw_island *is, double h)
             if (p->gap1 > 0 || p->rate1 <= 0) continue;
             g0 = DBL_MIN;
         }
-        first = fmin(first, fw_touch_root(g0, p->rate0, p->gap1, p->rate1, h));
+        first = fw_smaller(first, fw_touch_root(g0, p->rate0, p->gap1, p->rate1, h));
     }
     return first;
 }
@@ -126,9 +138,9 @@ static double release(const fw_island *is)
     const fw_method *me = is->setup->method;
     size_t           last = me->n_stages - 1;
     double           first = 1;
-    for (size_t k = 0; k < is->n_pairs; k++) {
-        const fw_pair *p = &is->pairs[k];
-        if (!p->is_closed || p->b != FW_WALL) continue;
+    for (size_t k = 0; k < is->n_closed; k++) {
+        const fw_pair *p = &is->pairs[is->closed[k]];
+        if (p->b != FW_WALL) continue;
         double from = signed_normal(p, 0), to = signed_normal(p, last);
         if (to >= -0.2 * from || from <= is->setup->tolerance * p->law.c * is->setup->velocity_scale) continue;
         /* the stages in between tell on which side of the chord the zero lies */
@@ -167,12 +179,11 @@ static void keep_books(fw_island *is, double h)
         l->drag_work += work / m->body->inv_mass;
         /* xr, vr are free again: collect the impulses there [m/s] */
         m->vr[0] = j[0], m->vr[1] = j[1], m->vr[2] = 0;
-        m->U[0] = hypot(j[0], j[1]);
+        m->U[0] = fw_length(j[0], j[1]);
     }
     bool is_beyond = false;
-    for (size_t k = 0; k < is->n_pairs; k++) {
-        fw_pair *p = &is->pairs[k];
-        if (!p->is_closed) continue;
+    for (size_t k = 0; k < is->n_closed; k++) {
+        fw_pair *p = &is->pairs[is->closed[k]];
         fw_member *a = &is->members[p->a], *b = other(is, p);
         double jx = 0, jy = 0, rub = 0, push = 0, dashpot = 0, dropped = 0;
         for (size_t s = 0; s < me->n_stages; s++) {
@@ -188,11 +199,11 @@ static void keep_books(fw_island *is, double h)
         size_t last = me->n_stages - 1;
         if (!(push > 0)) {
             /* No force at all: what the spring loses is dropped, exactly, also where the rims part inside the step. */
-            double d0 = fmax(0, p->depth[0]), d1 = fmax(0, p->depth[last]);
+            double d0 = fw_larger(0, p->depth[0]), d1 = fw_larger(0, p->depth[last]);
             dashpot = 0, dropped = 0.5 * p->law.k * (d0 * d0 - d1 * d1);
         }
         l->dashpot += dashpot, l->dropped += dropped;
-        double size = hypot(jx, jy);
+        double size = fw_length(jx, jy);
         a->vr[0] += jx * a->body->inv_mass, a->vr[1] += jy * a->body->inv_mass;
         a->vr[2] -= rub * a->body->radius * a->body->inv_inertia;
         a->U[0] += size * a->body->inv_mass;
@@ -206,14 +217,13 @@ static void keep_books(fw_island *is, double h)
             double from = signed_normal(p, 0), to = signed_normal(p, last);
             l->contact_time += from > 0 && to > 0 ? h : from > 0 ? h * from / (from - to) : to > 0 ? h * to / (to - from) : 0;
         }
-        double small = fmin(a->body->radius, b ? b->body->radius : is->structure_radius), d = p->depth[last];
-        l->max_overlap = fmax(l->max_overlap, d), l->max_overlap_share = fmax(l->max_overlap_share, d / small);
+        double small = fw_smaller(a->body->radius, b ? b->body->radius : is->structure_radius), d = p->depth[last];
+        l->max_overlap = fw_larger(l->max_overlap, d), l->max_overlap_share = fw_larger(l->max_overlap_share, d / small);
         if (d > 0.1 * small) is_beyond = true;
     }
     if (is_beyond) l->overlap_time += h;
-    for (size_t i = 0; i < is->n_members; i++) {
-        fw_member *m = &is->members[i];
-        if (!m->n_closed) continue;
+    for (size_t i = 0; i < is->n_held; i++) {
+        fw_member *m = &is->members[is->held[i]];
         double mass = 1 / m->body->inv_mass, inertia = m->body->inv_inertia > 0 ? 1 / m->body->inv_inertia : 0;
         double change = 0, work = 0, err = 0;
         for (int q = 0; q < 3; q++) {
@@ -223,7 +233,7 @@ static void keep_books(fw_island *is, double h)
             if (q < 2) err += fabs(dv - m->vr[q]);
         }
         l->kinetic_change += change, l->impulse_work += work;
-        l->impulse_size += mass * m->U[0] * 0.5 * (hypot(m->v0[0], m->v0[1]) + hypot(m->v1[0], m->v1[1]));
+        l->impulse_size += mass * m->U[0] * 0.5 * (fw_length(m->v0[0], m->v0[1]) + fw_length(m->v1[0], m->v1[1]));
         l->momentum_error += mass * err, l->momentum_size += mass * m->U[0];
     }
 }
@@ -232,9 +242,9 @@ static void collect_wear(fw_island *is, double h)
 {
     const fw_method *me = is->setup->method;
     if (!is->wear->is_open) return;
-    for (size_t k = 0; k < is->n_pairs; k++) {
-        fw_pair *p = &is->pairs[k];
-        if (!p->is_closed || p->b != FW_WALL) continue;
+    for (size_t k = 0; k < is->n_closed; k++) {
+        fw_pair *p = &is->pairs[is->closed[k]];
+        if (p->b != FW_WALL) continue;
         const fw_member *a    = &is->members[p->a];
         size_t           last = me->n_stages - 1;
         if (!(p->normal[0] > 0) && !(p->normal[last] > 0)) continue;
@@ -257,6 +267,7 @@ static fw_status move_on(fw_island *is, double h, fw_msg *msg)
 {
     const fw_method *me   = is->setup->method;
     size_t           last = me->n_stages - 1;
+    bool             any_open = false;
     is->t += h;
     for (size_t i = 0; i < is->n_members; i++) {
         fw_member *m = &is->members[i];
@@ -279,15 +290,17 @@ static fw_status move_on(fw_island *is, double h, fw_msg *msg)
         p->dir[0][0] = p->dir[last][0], p->dir[0][1] = p->dir[last][1];
         if (p->b == FW_WALL) {
             a->body->t_wall = is->t;
-            FW_CHECK(hypot(a->x0, a->y0) > is->structure_radius, msg, FW_E_NUMERIC,
+            FW_CHECK(fw_length(a->x0, a->y0) > is->structure_radius, msg, FW_E_NUMERIC,
                      "floe %llu (D %.3g m, h %.2g m) has its centre inside the structure at t = %.6g s",
                      (unsigned long long)a->body->name, 2 * a->body->radius, a->body->thickness, is->t);
         }
         if (p->depth[0] < 0 && p->normal[0] <= 0) {
             open_pair(is, p);
+            any_open = true;
             fw_touch_gap(is, p, false, &p->gap0, &p->rate0);
         }
     }
+    if (any_open) list_closed(is);
     return FW_OK;
 }
 
@@ -341,6 +354,7 @@ fw_status fw_island_advance(fw_island *is, double t_end, fw_msg *msg)
             is_stale = true;
         }
     }
+    list_closed(is);
     if (is_stale) restart(is, &h);
 
     while (is->t < t_end) {

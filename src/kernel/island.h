@@ -2,6 +2,8 @@
 #ifndef FW_KERNEL_ISLAND_H
 #define FW_KERNEL_ISLAND_H
 
+#include <math.h>
+
 #include "kernel/kernel.h"
 
 /* A floe of the island. Stage arrays are (stage) x (x, y, rotation). */
@@ -16,6 +18,7 @@ typedef struct fw_member {
     double   X, Y, U[3];    /* predicted stage position and the velocity it was predicted with */
     double   V[3];          /* unknown stage velocity while it is solved for */
     double   inv_mass;      /* of the stage: drag adds to inertia */
+    double   resistance, ease; /* 1 + hg drag_rate and its inverse */
     double   drag_rate;     /* drag x |u - v| / mass [1/s] that V was built with */
     double   drag[FW_MAX_STAGES][2]; /* drag acceleration at the stages */
 } fw_member;
@@ -30,6 +33,7 @@ typedef struct fw_pair {
     double               nx, ny;                   /* this stage, from b to a */
     double               alpha, beta;              /* N = max(0, alpha + beta closing rate) */
     double               w_normal, w_slip;         /* inverse effective masses */
+    double               to_push, to_rub;          /* impulses that a sweep answers with, per force without it and per slip */
     double               push, rub;                /* impulses of this stage [N s] */
     double               depth_star, rate_star;
     double               normal[FW_MAX_STAGES], friction[FW_MAX_STAGES], slip[FW_MAX_STAGES], rate[FW_MAX_STAGES];
@@ -42,11 +46,19 @@ typedef struct fw_island {
     size_t          n_members, n_pairs, n_closed;
     fw_member      *members;    /* (n_members) */
     fw_pair        *pairs;      /* (n_pairs) */
+    size_t          n_held;
+    int32_t        *closed;     /* (n_closed) closed pairs, ascending; room for n_pairs */
+    int32_t        *held;       /* (n_held) members in contact, ascending; room for n_members */
     fw_ledger      *ledger;
     fw_wear        *wear;
     double          structure_radius;
     uint64_t        n_touched;  /* floes touched for the first time */
 } fw_island;
+
+/* Comparisons instead of fmax and fmin: those are library calls, this is an instruction. NaN in b is dropped, as there. */
+static inline double fw_larger(double a, double b) { return b > a ? b : a; }
+static inline double fw_length(double x, double y) { return sqrt(x * x + y * y); } /* nothing here nears 1e150 */
+static inline double fw_smaller(double a, double b) { return b < a ? b : a; }
 
 /* stage.c */
 void fw_stage_start(fw_island *is);                        /* accelerations at the sub-step's start, from forces */

@@ -22,11 +22,14 @@ struct fw_kernel {
     /* work, grown between steps */
     int32_t   *root;      size_t root_capacity;    /* union-find over awake floes */
     int32_t   *member_of; size_t member_capacity;  /* awake floe -> member of the island being built */
+    double    *way;       size_t way_capacity;      /* speeds of awake floes relative to the water [m/s] */
     double    *stirred_at; size_t stirred_capacity; /* from when on a contact may change its velocity, after the macro-step's
                                                       * start [s]; INFINITY: not within it */
     bool      *is_gone;   size_t gone_capacity;
     fw_member *members;   size_t members_capacity;
     fw_pair   *pairs;     size_t pairs_capacity;
+    int32_t   *closed;    size_t closed_capacity;
+    int32_t   *held;      size_t held_capacity;
     struct link { int32_t root, i, j, contact; } *links; size_t link_capacity; /* near or closed pairs by island */
     fw_contact *contacts; size_t contacts_capacity; /* closed at the macro-step's end */
     int32_t   *order;     size_t order_capacity;
@@ -48,10 +51,13 @@ void fw_kernel_destroy(fw_kernel *k)
     fw_neighbours_free(&k->neighbours);
     free(k->root);
     free(k->member_of);
+    free(k->way);
     free(k->stirred_at);
     free(k->is_gone);
     free(k->members);
     free(k->pairs);
+    free(k->closed);
+    free(k->held);
     free(k->links);
     free(k->contacts);
     free(k->order);
@@ -61,7 +67,7 @@ void fw_kernel_destroy(fw_kernel *k)
 double fw_kernel_needs_ice_from(const fw_kernel *k, const fw_world *w)
 {
     double least = -w->structure_radius;
-    for (size_t i = 0; i < w->n_bodies; i++) least = fmin(least, w->bodies[i].x - w->bodies[i].radius);
+    for (size_t i = 0; i < w->n_bodies; i++) least = fw_smaller(least, w->bodies[i].x - w->bodies[i].radius);
     return least - w->max_radius - 2 * k->setup.skin;
 }
 
@@ -83,16 +89,19 @@ fw_status fw_wake(const fw_setup *s, fw_world *w, size_t block, size_t row, fw_m
     return fw_world_add_body(w, &body, m);
 }
 
-static double way_relative_to_water(const fw_setup *s, const fw_body *b) { return hypot(b->vx - s->speed, b->vy); }
+static double way_relative_to_water(const fw_setup *s, const fw_body *b) { return fw_length(b->vx - s->speed, b->vy); }
 
-/* The earliest time at which the pair can meet, by its own flight or after one of them was hit; INFINITY: never. */
-static double meets_at(const fw_kernel *k, const fw_world *w, int32_t i, int32_t j)
+/* The earliest time at which the pair can meet, by its own flight or after one of them was hit; INFINITY: not within H. */
+static double meets_at(const fw_kernel *k, const fw_world *w, int32_t i, int32_t j, double H)
 {
     const fw_setup *s       = &k->setup;
-    double          speed   = way_relative_to_water(s, &w->bodies[i]), gap = -fw_world_overlap(w, i, j);
-    double          stirred = j == FW_WALL ? k->stirred_at[i] : fmin(k->stirred_at[i], k->stirred_at[j]);
-    if (j == FW_WALL) speed += s->speed;
-    else speed += way_relative_to_water(s, &w->bodies[j]);
+    const fw_body  *a       = &w->bodies[i], *b = j == FW_WALL ? NULL : &w->bodies[j];
+    double          speed   = k->way[i] + (b ? k->way[j] : s->speed), reach = a->radius + (b ? b->radius : w->structure_radius);
+    double          dx = b ? a->x - b->x : a->x, dy = b ? a->y - b->y : a->y, d2 = dx * dx + dy * dy;
+    double          limit = reach + (speed + s->velocity_scale) * H * (1 + 1e-9);
+    if (d2 > limit * limit) return INFINITY; /* most pairs within the skin end here */
+    double          stirred = j == FW_WALL ? k->stirred_at[i] : fw_smaller(k->stirred_at[i], k->stirred_at[j]);
+    double gap = sqrt(d2) - reach;
     if (!(gap > 0)) return 0;
     double alone = speed > 0 ? gap / speed : INFINITY;
     return alone <= stirred ? alone : (gap + s->velocity_scale * stirred) / (speed + s->velocity_scale);
@@ -103,15 +112,18 @@ static void stir(fw_kernel *k, const fw_world *w, double H)
 {
     double *at       = k->stirred_at;
     bool    is_final = false;
-    for (size_t i = 0; i < w->n_bodies; i++) at[i] = w->bodies[i].n_closed > 0 ? 0 : INFINITY;
+    for (size_t i = 0; i < w->n_bodies; i++) {
+        at[i]     = w->bodies[i].n_closed > 0 ? 0 : INFINITY;
+        k->way[i] = way_relative_to_water(&k->setup, &w->bodies[i]);
+    }
     while (!is_final) {
         is_final = true;
         for (size_t q = 0; q < k->neighbours.n_near; q++) {
             fw_near e     = k->neighbours.near[q];
-            double  first = e.j < 0 ? at[e.i] : fmin(at[e.i], at[e.j]), last = e.j < 0 ? at[e.i] : fmax(at[e.i], at[e.j]);
+            double  first = e.j < 0 ? at[e.i] : fw_smaller(at[e.i], at[e.j]), last = e.j < 0 ? at[e.i] : fw_larger(at[e.i], at[e.j]);
             if (e.j >= 0 && !w->bodies[e.i].is_touched && !w->bodies[e.j].is_touched && first == INFINITY) continue;
             if (last == 0) continue;
-            double t = meets_at(k, w, e.i, e.j);
+            double t = meets_at(k, w, e.i, e.j, H);
             if (!(t <= H) || !(t < last)) continue;
             if (t < at[e.i]) at[e.i] = t;
             if (e.j >= 0 && t < at[e.j]) at[e.j] = t;
@@ -136,7 +148,7 @@ static fw_status wake_near(fw_kernel *k, fw_world *w, double H, bool *is_changed
             const fw_body *a = &w->bodies[n.i];
             if (!a->is_touched && !(k->stirred_at[n.i] < H)) continue;
             gap = undisturbed_gap(w, a->x, a->y, a->radius, b, n.row);
-            way = way_relative_to_water(s, a) * H + s->velocity_scale * fmax(0, H - k->stirred_at[n.i]);
+            way = k->way[n.i] * H + s->velocity_scale * fw_larger(0, H - k->stirred_at[n.i]);
         }
         if (gap > way) continue;
         FW_TRY(fw_wake(s, w, n.block, n.row, m));
@@ -193,7 +205,7 @@ static fw_status find_links(fw_kernel *k, const fw_world *w, double H, size_t *n
         while (at < w->n_contacts && (w->contacts[at].i < e.i || (w->contacts[at].i == e.i && (uint32_t)w->contacts[at].j < (uint32_t)e.j)))
             at++;
         if (at < w->n_contacts && w->contacts[at].i == e.i && w->contacts[at].j == e.j) continue;
-        if (!(meets_at(k, w, e.i, e.j) <= H)) continue;
+        if (!(meets_at(k, w, e.i, e.j, H) <= H)) continue;
         k->links[n++] = (struct link){0, e.i, e.j, -1};
         if (e.j >= 0) join(k->root, e.i, e.j);
     }
@@ -287,7 +299,7 @@ static fw_status run_islands(fw_kernel *k, fw_world *w, fw_wear *wear, size_t n_
         for (to = from; to < n_links && k->links[to].root == k->links[from].root; to++)
             load_pair(k, w, &k->links[to], &k->pairs[to - from], &n_members);
         fw_island is = {.setup = s, .t = w->t, .n_members = n_members, .n_pairs = to - from, .members = k->members,
-                        .pairs = k->pairs, .ledger = &w->ledger, .wear = wear, .structure_radius = s->structure_radius};
+                        .pairs = k->pairs, .closed = k->closed, .held = k->held, .ledger = &w->ledger, .wear = wear, .structure_radius = s->structure_radius};
         for (size_t q = 0; q < is.n_pairs; q++) is.n_closed += is.pairs[q].is_closed;
         split_accelerations(&is);
         FW_TRY(fw_island_advance(&is, t_end, m));
@@ -323,7 +335,7 @@ static void forget(fw_kernel *k, fw_world *w)
     bool            any = false;
     for (size_t i = 0; i < w->n_bodies; i++) {
         const fw_body *b = &w->bodies[i];
-        k->is_gone[i] = b->x > s->downstream && hypot(b->x, b->y) > s->structure_radius + b->radius;
+        k->is_gone[i] = b->x > s->downstream && fw_length(b->x, b->y) > s->structure_radius + b->radius;
         any |= k->is_gone[i];
     }
     if (!any) return;
@@ -341,6 +353,7 @@ fw_status fw_kernel_step(fw_kernel *k, fw_world *w, fw_wear *wear, double t_end,
     do {
         if (is_changed) FW_TRY(fw_neighbours_list(&k->neighbours, s, w, m));
         FW_TRY(fw_grow(&k->stirred_at, &k->stirred_capacity, w->n_bodies + 1, sizeof *k->stirred_at, "islands", m));
+        FW_TRY(fw_grow(&k->way, &k->way_capacity, w->n_bodies + 1, sizeof *k->way, "islands", m));
         stir(k, w, dt);
         FW_TRY(wake_near(k, w, dt, &is_changed, m));
     } while (is_changed);
@@ -353,6 +366,8 @@ fw_status fw_kernel_step(fw_kernel *k, fw_world *w, fw_wear *wear, double t_end,
     size_t n_links, n_contacts = 0;
     FW_TRY(find_links(k, w, dt, &n_links, m));
     FW_TRY(fw_grow(&k->pairs, &k->pairs_capacity, n_links + 1, sizeof *k->pairs, "islands", m));
+    FW_TRY(fw_grow(&k->closed, &k->closed_capacity, n_links + 1, sizeof *k->closed, "islands", m));
+    FW_TRY(fw_grow(&k->held, &k->held_capacity, w->n_bodies + 1, sizeof *k->held, "islands", m));
     fly_alone(k, w, n_links, dt);
     FW_TRY(run_islands(k, w, wear, n_links, t1, &n_contacts, m));
     FW_TRY(fw_grow(&w->contacts, &w->contact_capacity, n_contacts + 1, sizeof *w->contacts, "contacts", m));

@@ -101,7 +101,8 @@ fw_status fw_neighbours_list(fw_neighbours *n, const fw_setup *s, fw_world *w, f
                 }
             FW_TRY(add_sleepers(n, s, w, (int32_t)i, b->x, b->y, b->radius, m));
         }
-        if (hypot(b->x, b->y) < s->structure_radius + b->radius + s->skin) FW_TRY(add_near(n, (int32_t)i, FW_WALL, m));
+        double limit = s->structure_radius + b->radius + s->skin;
+        if (b->x * b->x + b->y * b->y < limit * limit) FW_TRY(add_near(n, (int32_t)i, FW_WALL, m));
     }
     FW_TRY(add_sleepers(n, s, w, FW_WALL, 0, 0, s->structure_radius, m));
     n->is_valid = true;

@@ -71,17 +71,15 @@ void fw_stage_forces_now(fw_island *is, fw_pair *p)
 void fw_stage_start(fw_island *is)
 {
     const fw_setup *set = is->setup;
-    for (size_t i = 0; i < is->n_members; i++) {
-        fw_member *m = &is->members[i];
-        if (!m->n_closed) continue;
+    for (size_t i = 0; i < is->n_held; i++) {
+        fw_member *m = &is->members[is->held[i]];
         double k      = m->body->drag * m->body->inv_mass * relative_speed(set, m->v0);
         m->drag[0][0] = k * (set->speed - m->v0[0]), m->drag[0][1] = -k * m->v0[1];
         m->a[0][0] = m->drag[0][0], m->a[0][1] = m->drag[0][1], m->a[0][2] = 0;
         for (int q = 0; q < 3; q++) m->v[0][q] = m->v0[q];
     }
-    for (size_t k = 0; k < is->n_pairs; k++) {
-        fw_pair *p = &is->pairs[k];
-        if (!p->is_closed) continue;
+    for (size_t k = 0; k < is->n_closed; k++) {
+        fw_pair *p = &is->pairs[is->closed[k]];
         fw_stage_forces_now(is, p);
         fw_member *a = &is->members[p->a], *b = p->b == FW_WALL ? NULL : &is->members[p->b];
         double fx = p->normal[0] * p->nx - p->friction[0] * p->ny, fy = p->normal[0] * p->ny + p->friction[0] * p->nx;
@@ -98,19 +96,20 @@ void fw_stage_start(fw_island *is)
 static void free_velocity(const fw_setup *set, fw_member *m, double hg, double speed)
 {
     m->drag_rate = m->body->drag * m->body->inv_mass * speed;
-    double f     = 1 / (1 + hg * m->drag_rate);
+    m->resistance = 1 + hg * m->drag_rate;
+    double f      = 1 / m->resistance;
     m->V[0]      = (m->vr[0] + hg * m->drag_rate * set->speed) * f;
     m->V[1]      = m->vr[1] * f;
     m->V[2]      = m->vr[2];
+    m->ease      = f;
     m->inv_mass  = m->body->inv_mass * f;
 }
 
 static void predict(fw_island *is, const fw_method *me, size_t s, double h)
 {
     double hg = h * me->gamma;
-    for (size_t i = 0; i < is->n_members; i++) {
-        fw_member *m = &is->members[i];
-        if (!m->n_closed) continue;
+    for (size_t i = 0; i < is->n_held; i++) {
+        fw_member *m = &is->members[is->held[i]];
         double x = m->x0, y = m->y0, v[3] = {m->v0[0], m->v0[1], m->v0[2]};
         for (size_t j = 0; j < s; j++) {
             double ha = h * me->a[s][j];
@@ -128,12 +127,17 @@ static void predict(fw_island *is, const fw_method *me, size_t s, double h)
     }
 }
 
-static double linearise(fw_island *is, size_t s, double hg)
+/* What a sweep would divide by, each time and in its chain of dependences. */
+static void prepare(fw_pair *p, double hg)
 {
-    double stiffest = 0;
-    for (size_t k = 0; k < is->n_pairs; k++) {
-        fw_pair *p = &is->pairs[k];
-        if (!p->is_closed) continue;
+    p->to_push = hg / (1 + p->beta * hg * p->w_normal);
+    p->to_rub  = -hg * p->law.ct / (1 + p->law.ct * hg * p->w_slip);
+}
+
+static void linearise(fw_island *is, size_t s, double hg)
+{
+    for (size_t k = 0; k < is->n_closed; k++) {
+        fw_pair *p = &is->pairs[is->closed[k]];
         fw_member *a = &is->members[p->a], *b = p->b == FW_WALL ? NULL : &is->members[p->b];
         geometry(is, p, true, &p->nx, &p->ny, &p->depth_star);
         p->rate_star = closing(p, a->U, b ? b->U : NULL);
@@ -142,37 +146,35 @@ static double linearise(fw_island *is, size_t s, double hg)
         p->w_normal  = a->inv_mass + (b ? b->inv_mass : 0);
         p->w_slip    = p->w_normal + a->body->radius * a->body->radius * a->body->inv_inertia +
                     (b ? b->body->radius * b->body->radius * b->body->inv_inertia : 0);
+        prepare(p, hg);
         /* Start from the force of the stage before. */
         p->push = hg * p->normal[s - 1], p->rub = hg * p->friction[s - 1];
         shove(p, a, b, p->push, p->rub);
         is->ledger->force_evaluations++;
-        stiffest = fmax(stiffest, p->law.omega);
     }
-    return stiffest;
 }
 
 /* One sweep; returns the largest change of a velocity. */
-static double sweep(fw_island *is, double hg)
+static double sweep(fw_island *is)
 {
     double largest = 0;
-    for (size_t k = 0; k < is->n_pairs; k++) {
-        fw_pair *p = &is->pairs[k];
-        if (!p->is_closed) continue;
+    for (size_t k = 0; k < is->n_closed; k++) {
+        fw_pair *p = &is->pairs[is->closed[k]];
         fw_member *a = &is->members[p->a], *b = p->b == FW_WALL ? NULL : &is->members[p->b];
         double free = closing(p, a->V, b ? b->V : NULL) + p->push * p->w_normal;
-        double n    = (p->alpha + p->beta * free) / (1 + p->beta * hg * p->w_normal);
-        double push = n > 0 ? hg * n : 0;
+        double push = (p->alpha + p->beta * free) * p->to_push;
+        if (!(push > 0)) push = 0;
         double rub  = 0;
         if (p->law.mu > 0) {
             double slip = slipping(p, a->V, b ? b->V : NULL, a->body->radius, b ? b->body->radius : 0) - p->rub * p->w_slip;
             double cap  = p->law.mu * push;
-            rub         = -hg * p->law.ct * slip / (1 + p->law.ct * hg * p->w_slip);
+            rub         = slip * p->to_rub;
             rub         = rub > cap ? cap : rub < -cap ? -cap : rub;
         }
         double dp = push - p->push, dr = rub - p->rub;
         shove(p, a, b, dp, dr);
         p->push = push, p->rub = rub;
-        largest = fmax(largest, fmax(fabs(dp) * p->w_normal, fabs(dr) * p->w_slip));
+        largest = fw_larger(largest, fw_larger(fabs(dp) * p->w_normal, fabs(dr) * p->w_slip));
     }
     return largest;
 }
@@ -181,24 +183,23 @@ static double sweep(fw_island *is, double hg)
 static double renew_drag(fw_island *is, double hg)
 {
     double largest = 0;
-    for (size_t i = 0; i < is->n_members; i++) {
-        fw_member *m = &is->members[i];
-        if (!m->n_closed || !(m->body->drag > 0)) continue;
-        double old_f = m->inv_mass / m->body->inv_mass, speed = relative_speed(is->setup, m->V);
-        double jx = m->V[0] / old_f - (m->vr[0] + hg * m->drag_rate * is->setup->speed), jy = m->V[1] / old_f - m->vr[1];
+    for (size_t i = 0; i < is->n_held; i++) {
+        fw_member *m = &is->members[is->held[i]];
+        if (!(m->body->drag > 0)) continue;
+        double speed = relative_speed(is->setup, m->V);
+        double jx = m->V[0] * m->resistance - (m->vr[0] + hg * m->drag_rate * is->setup->speed), jy = m->V[1] * m->resistance - m->vr[1];
         double old_x = m->V[0], old_y = m->V[1], spin = m->V[2];
         free_velocity(is->setup, m, hg, speed);
-        double f = m->inv_mass / m->body->inv_mass;
-        m->V[0] += jx * f, m->V[1] += jy * f, m->V[2] = spin;
-        largest = fmax(largest, fmax(fabs(m->V[0] - old_x), fabs(m->V[1] - old_y)));
+        m->V[0] += jx * m->ease, m->V[1] += jy * m->ease, m->V[2] = spin;
+        largest = fw_larger(largest, fw_larger(fabs(m->V[0] - old_x), fabs(m->V[1] - old_y)));
     }
-    for (size_t k = 0; k < is->n_pairs; k++) {
-        fw_pair *p = &is->pairs[k];
-        if (!p->is_closed) continue;
+    for (size_t k = 0; k < is->n_closed; k++) {
+        fw_pair *p = &is->pairs[is->closed[k]];
         const fw_member *a = &is->members[p->a], *b = p->b == FW_WALL ? NULL : &is->members[p->b];
         double was   = p->w_normal;
         p->w_normal  = a->inv_mass + (b ? b->inv_mass : 0);
         p->w_slip += p->w_normal - was;
+        prepare(p, hg);
     }
     return largest;
 }
@@ -212,25 +213,23 @@ void fw_stage_solve(fw_island *is, size_t s, double h)
     predict(is, me, s, h);
     linearise(is, s, hg);
     for (int n = 0; n < MAX_SWEEPS; n++) {
-        double change = sweep(is, hg);
+        double change = sweep(is);
         if (is->n_closed == 1 || change < enough || n % 4 == 3) {
             /* A lone contact is solved by one sweep. */
             double drag = set->has_drag ? renew_drag(is, hg) : 0;
             if (drag < enough && (change < enough || (is->n_closed == 1 && drag == 0))) break;
         }
     }
-    for (size_t i = 0; i < is->n_members; i++) {
-        fw_member *m = &is->members[i];
-        if (!m->n_closed) continue;
+    for (size_t i = 0; i < is->n_held; i++) {
+        fw_member *m = &is->members[is->held[i]];
         for (int q = 0; q < 3; q++) {
             m->v[s][q] = m->V[q];
             m->a[s][q] = (m->V[q] - m->vr[q]) / hg;
         }
         m->drag[s][0] = m->drag_rate * (set->speed - m->V[0]), m->drag[s][1] = -m->drag_rate * m->V[1];
     }
-    for (size_t k = 0; k < is->n_pairs; k++) {
-        fw_pair *p = &is->pairs[k];
-        if (!p->is_closed) continue;
+    for (size_t k = 0; k < is->n_closed; k++) {
+        fw_pair *p = &is->pairs[is->closed[k]];
         const fw_member *a = &is->members[p->a], *b = p->b == FW_WALL ? NULL : &is->members[p->b];
         p->normal[s]   = p->push / hg;
         p->friction[s] = p->rub / hg;

@@ -88,13 +88,13 @@ double fw_touch_free(const fw_island *is, const fw_pair *p, double dt)
      * the last tenth of reach the ways are nearly straight and the cubic finds the touch, Newton on the exact flight
      * locates it. (Skipping alone needs hundreds of looks at two floes that drift side by side and close slowly.) */
     const fw_member *a     = &is->members[p->a];
-    double           bound = hypot(a->v0[0] - is->setup->speed, a->v0[1]), reach = a->body->radius;
+    double           bound = fw_length(a->v0[0] - is->setup->speed, a->v0[1]), reach = a->body->radius;
     if (p->b == FW_WALL) {
         bound += is->setup->speed;
         reach += is->structure_radius;
     } else {
         const fw_member *b = &is->members[p->b];
-        bound += hypot(b->v0[0] - is->setup->speed, b->v0[1]);
+        bound += fw_length(b->v0[0] - is->setup->speed, b->v0[1]);
         reach += b->body->radius;
     }
     if (!(bound > 0)) return INFINITY;

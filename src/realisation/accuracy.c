@@ -46,7 +46,7 @@ void fw_accuracy_setup(fw_setup *s, const fw_model *m, double speed, double velo
         .growth           = blend(TABLE[r].growth, TABLE[r + 1].growth, f),
         .max_step         = INFINITY,
         .macro_length     = 0.2,
-        .skin             = 1.0,
+        .skin             = 2.0,
         .half_width       = 0.5 * fw_accuracy_strip_width(m),
         .downstream       = fw_accuracy_downstream(m),
         .max_evaluations  = INFINITY,

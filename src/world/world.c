@@ -134,9 +134,10 @@ void fw_world_forget(fw_world *w, const bool *is_gone)
 double fw_world_overlap(const fw_world *w, int32_t i, int32_t j)
 {
     const fw_body *a = &w->bodies[i];
-    if (j == FW_WALL) return w->structure_radius + a->radius - hypot(a->x, a->y);
+    if (j == FW_WALL) return w->structure_radius + a->radius - sqrt(a->x * a->x + a->y * a->y);
     const fw_body *b = &w->bodies[j];
-    return a->radius + b->radius - hypot(a->x - b->x, a->y - b->y);
+    double dx = a->x - b->x, dy = a->y - b->y;
+    return a->radius + b->radius - sqrt(dx * dx + dy * dy);
 }
 
 double fw_world_energy(const fw_world *w)
