@@ -1,7 +1,8 @@
 /* The sampling design: id -> scenario.
  *
- * Plain sampling. Every scenario takes its numbers from its own stream in a fixed order, one uniform per quantity whether
- * the site needs it or not, so that a site that turns a constant into a law leaves the other quantities' numbers alone:
+ * Plain sampling. Every scenario takes its numbers from its own stream in a fixed order, one uniform per quantity
+ * whether the site needs it or not, so that a site that turns a constant into a law leaves the other quantities'
+ * numbers alone:
  *
  *   u[0] concentration   u[1] speed   u[2] thickness mix   u[3] cell of the joint table */
 #include "base/random.h"

@@ -60,7 +60,8 @@ void      fw_leases_destroy(fw_leases *l);
 bool fw_leases_take(fw_leases *l, int rank, uint64_t *id);
 /* Ids that may be given out now, at most. */
 uint64_t fw_leases_n_open(const fw_leases *l);
-/* The record of id, held by rank, is in the sink. cause NULL: it did not fail. FW_E_INTERNAL when rank does not hold it. */
+/* The record of id, held by rank, is in the sink. cause NULL: it did not fail. FW_E_INTERNAL when rank does not hold
+ * it. */
 fw_status fw_leases_done(fw_leases *l, int rank, uint64_t id, const char *cause, fw_msg *m);
 uint64_t  fw_leases_prefix(const fw_leases *l);
 

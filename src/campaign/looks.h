@@ -1,6 +1,6 @@
-/* When a campaign may ask whether it is precise enough: n0 = 100 realisations, then half as many again each time, and at
- * the end. Looking after every record would stop on a lucky streak far too often; a geometric schedule keeps the number of
- * looks (and so the loss of coverage) at log(n) and never overshoots the need by more than half. */
+/* When a campaign may ask whether it is precise enough: n0 = 100 realisations, then half as many again each time,
+ * and at the end. Looking after every record would stop on a lucky streak far too often; a geometric schedule keeps
+ * the number of looks (and so the loss of coverage) at log(n) and never overshoots the need by more than half. */
 #ifndef FW_CAMPAIGN_LOOKS_H
 #define FW_CAMPAIGN_LOOKS_H
 

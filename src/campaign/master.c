@@ -32,11 +32,11 @@ typedef struct master {
 
     uint64_t n_fresh;  /* records made by this call */
     double   started, flushed, shown;
-    double   served_s; /* time spent on messages and looks */
+    double   served_s; /* processor time spent on messages and looks (wall time would count others' use of the core) */
 } master;
 
-/* In hand beyond the one it computes, a worker holds enough short realisations to bridge the longest time that rank 0 is
- * away (a tick, a commit, a look): 0.05 s, at least one and at most seven. */
+/* In hand beyond the one it computes, a worker holds enough short realisations to bridge the longest time that rank
+ * 0 is away (a tick, a commit, a look): 0.05 s, at least one and at most seven. */
 static const double master_bridge = 0.05; /* [s] */
 /* Beyond this share of its time spent on the others, rank 0 of a large job stops computing itself. */
 static const double master_busy_share = 0.25;
@@ -111,7 +111,8 @@ static void master_explain_failures(master *a, uint64_t n)
     list[0] = '\0';
     for (size_t i = 0; i < l->n_causes && used < sizeof list - 1; i++) {
         int k = snprintf(list + used, sizeof list - used, "; id %llu (seed %llu): %s",
-                         (unsigned long long)l->causes[i].id, (unsigned long long)a->campaign->seed, l->causes[i].cause);
+                         (unsigned long long)l->causes[i].id, (unsigned long long)a->campaign->seed,
+                         l->causes[i].cause);
 
         used += k > 0 ? (size_t)k : 0;
     }
@@ -217,7 +218,7 @@ static bool master_listen(master *a)
     double start;
 
     if (a->n_ranks == 1) return false;
-    start = fw_seconds();
+    start = fw_cpu_seconds();
     for (;;) {
         MPI_Status status;
         int        is_waiting = 0;
@@ -234,7 +235,7 @@ static bool master_listen(master *a)
         default: master_take_word(a, status.MPI_SOURCE, status.MPI_TAG); break;
         }
     }
-    if (heard) a->served_s += fw_seconds() - start;
+    if (heard) a->served_s += fw_cpu_seconds() - start;
     return heard;
 }
 

@@ -1,4 +1,5 @@
-/* What ranks say to each other. All traffic is between rank 0 (the master) and one worker; a message's meaning is its tag.
+/* What ranks say to each other. All traffic is between rank 0 (the master) and one worker; a message's meaning is
+ * its tag.
  *
  *   master                                   worker
  *     | ---- BEGIN {hash, is_work} ----------> |     is_work false: leave, nothing to do
@@ -50,7 +51,8 @@ int  fw_protocol_rank(void);   /* 0 without MPI */
 int  fw_protocol_ranks(void);  /* 1 without MPI */
 void fw_protocol_begin(uint64_t hash, bool is_work); /* rank 0: BEGIN to every worker */
 
-double fw_seconds(void); /* monotonic clock [s] */
+double fw_seconds(void);     /* monotonic clock [s] */
+double fw_cpu_seconds(void); /* processor time of this process [s] */
 
 /* Waits that get longer while nothing happens: 0.1 ms up to 1 ms. A signal cuts one short. */
 typedef struct fw_nap {

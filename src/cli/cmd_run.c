@@ -43,9 +43,9 @@ static const struct argp_option run_options[] = {
     {0}};
 
 static const char run_doc[] =
-    "Run a campaign and print its design percentiles. Under mpirun all ranks share the work. Run the same command again "
-    "to go on after a stop.\vExit codes: 0 done, 2 wrong input, 3 too many failed realisations, 4 input or output error, "
-    "75 stopped early (signal or time budget).";
+    "Run a campaign and print its design percentiles. Under mpirun all ranks share the work. Run the same command "
+    "again to go on after a stop.\vExit codes: 0 done, 2 wrong input, 3 too many failed realisations, 4 input or "
+    "output error, 75 stopped early (signal or time budget).";
 
 static bool run_integer(const char *text, int64_t *out)
 {
@@ -129,7 +129,7 @@ static void run_quantity(const fw_campaign *c, char *out, size_t size)
     }
 }
 
-/* "P90 2.31e-04 mm +- 12 % at point 5" from the first n realisations. */
+/* "P90 2.31e-04 mm +- 12 %, point 5" from the first n realisations. */
 static fw_status run_estimate(run_session *s, uint64_t n, char *out, size_t size, double *half_width, fw_msg *m)
 {
     const fw_campaign *c      = s->campaign;
@@ -140,9 +140,13 @@ static fw_status run_estimate(run_session *s, uint64_t n, char *out, size_t size
 
     FW_TRY(fw_answer_half_width(c, &source, half_width, &value, &point, m));
     run_quantity(c, quantity, sizeof quantity);
-    snprintf(interval, sizeof interval, isfinite(*half_width) ? "+- %.2g %%" : "(no interval yet)", 100.0 * *half_width);
+    if (!isfinite(*half_width)) {
+        snprintf(interval, sizeof interval, "+- ?");
+    } else {
+        snprintf(interval, sizeof interval, *half_width < 0.1 ? "+- %.2g %%" : "+- %.0f %%", 100.0 * *half_width);
+    }
     if (point > 0) {
-        snprintf(out, size, "%s %.3g mm %s at point %zu", quantity, value, interval, point);
+        snprintf(out, size, "%s %.3g mm %s, point %zu", quantity, value, interval, point);
     } else {
         snprintf(out, size, "%s %.3g mm %s", quantity, value, interval);
     }

@@ -48,13 +48,15 @@ static void line_rate(double per_s, char *out, size_t size)
 
 void fw_progress_line_format(const fw_progress_line *l, const fw_progress *p, char *out, size_t size)
 {
-    char rate[32], eta[32], elapsed[32];
+    char pace[96] = "", gone[48] = "", rate[32], eta[32], elapsed[32];
 
     line_rate(p->rate_per_s, rate, sizeof rate);
     line_time(p->eta_s, eta, sizeof eta);
     line_time(p->elapsed_s, elapsed, sizeof elapsed);
-    snprintf(out, size, "%llu/%llu done, %llu failed, %s, %s gone, %s to go%s%s", (unsigned long long)p->done,
-             (unsigned long long)p->total, (unsigned long long)p->failed, rate, elapsed, eta, l->estimate[0] ? "; " : "",
+    if (p->rate_per_s > 0.0) snprintf(pace, sizeof pace, ", %s, %s to go", rate, eta);
+    if (!l->is_terminal) snprintf(gone, sizeof gone, "%s: ", elapsed); /* in a log there is no clock beside it */
+    snprintf(out, size, "%s%llu/%llu done, %llu failed%s%s%s", gone, (unsigned long long)p->done,
+             (unsigned long long)p->total, (unsigned long long)p->failed, pace, l->estimate[0] ? "; " : "",
              l->estimate);
 }
 

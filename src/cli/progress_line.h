@@ -1,4 +1,5 @@
-/* The live line of a campaign on stderr: on a terminal one line that is rewritten in place, in a log one line a minute. */
+/* The live line of a campaign on stderr: on a terminal one line that is rewritten in place, in a log one line a
+ * minute. */
 #ifndef FW_CLI_PROGRESS_LINE_H
 #define FW_CLI_PROGRESS_LINE_H
 
@@ -12,7 +13,7 @@ typedef struct fw_progress_line {
     bool   is_quiet, is_terminal;
     bool   is_open;    /* a line without its end is on the terminal */
     double last_s;     /* elapsed time of the last line in a log; < 0: none yet */
-    char   estimate[160]; /* "P90 2.31e-04 mm +- 12 % at point 5"; empty until there is one */
+    char   estimate[160]; /* "P90 2.31e-04 mm +- 12 %, point 5"; empty until there is one */
 } fw_progress_line;
 
 void fw_progress_line_start(fw_progress_line *l, FILE *to, bool is_quiet);

@@ -85,7 +85,8 @@ static fw_status files_index(fw_run_files *f, fw_msg *m)
     for (size_t i = 0; i < f->n_have && s == FW_OK; i++) {
         s = fw_journal_read(f->journal, f->have[i], &r, m);
         if (s != FW_OK || r.status == FW_OK) continue;
-        s = fw_grow(&f->have_failed, &f->failed_capacity, f->n_have_failed + 1, sizeof *f->have_failed, "failed ids", m);
+        s = fw_grow(&f->have_failed, &f->failed_capacity, f->n_have_failed + 1, sizeof *f->have_failed, "failed ids",
+                    m);
         if (s == FW_OK) f->have_failed[f->n_have_failed++] = r.id;
     }
     fw_record_free(&r);

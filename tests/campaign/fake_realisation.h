@@ -1,5 +1,6 @@
-/* A stand-in for the simulation: same contract as fw_realise, but a record costs what the test asks for and holds numbers
- * drawn from its own stream. Linked before fw_realisation, so that the archive's fw_realise is never pulled in. */
+/* A stand-in for the simulation: same contract as fw_realise, but a record costs what the test asks for and holds
+ * numbers drawn from its own stream. Linked before fw_realisation, so that the archive's fw_realise is never pulled
+ * in. */
 #ifndef TESTS_CAMPAIGN_FAKE_REALISATION_H
 #define TESTS_CAMPAIGN_FAKE_REALISATION_H
 

@@ -170,8 +170,8 @@ static void test_look_comes_before_later_failures(void **state)
     fw_leases_destroy(&l);
 }
 
-/* The law behind all of it: whatever the order of arrival, the number of ranks and the restarts, the campaign ends on the
- * same prefix with the same verdict. Failures and "enough" are fixed functions of id and n here. */
+/* The law behind all of it: whatever the order of arrival, the number of ranks and the restarts, the campaign ends
+ * on the same prefix with the same verdict. Failures and "enough" are fixed functions of id and n here. */
 static bool fails(uint64_t id) { return id % 37 == 5; }
 static bool enough(uint64_t n, uint64_t at) { return n >= at; }
 

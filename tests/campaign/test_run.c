@@ -237,7 +237,8 @@ static void test_only_one(void **state)
     s->run.only_id = 123;
     assert_int_equal(run(s), FW_OK);
     assert_int_equal(s->sink.n, 1);
-    assert_memory_equal(s->sink.bytes, all.bytes + 123 * all.n_bytes, all.n_bytes); /* the same bits as within the campaign */
+    /* the same bits as within the campaign */
+    assert_memory_equal(s->sink.bytes, all.bytes + 123 * all.n_bytes, all.n_bytes);
     fw_memory_sink_destroy(&all);
 }
 

@@ -7,7 +7,8 @@
 #include "mpi/job.h"
 #include "store/results.h"
 
-static bool compare_records(fw_results *const *files, const char *const *paths, uint64_t n, size_t n_arcs, size_t n_laws)
+static bool compare_records(fw_results *const *files, const char *const *paths, uint64_t n, size_t n_arcs,
+                            size_t n_laws)
 {
     size_t         n_bytes  = fw_record_packed_size(n_arcs, n_laws);
     unsigned char *bytes[2] = {malloc(n_bytes), malloc(n_bytes)};
@@ -44,7 +45,8 @@ bool fw_compare_results(const char *path_a, const char *path_b, uint64_t n, size
     const char *paths[2] = {path_a, path_b};
     fw_results *files[2] = {NULL, NULL};
     fw_msg      m        = {.text = ""};
-    bool        is_same  = fw_results_open(&files[0], path_a, &m) == FW_OK && fw_results_open(&files[1], path_b, &m) == FW_OK;
+    bool        is_same  = fw_results_open(&files[0], path_a, &m) == FW_OK &&
+                   fw_results_open(&files[1], path_b, &m) == FW_OK;
 
     if (is_same) {
         is_same = compare_records(files, paths, n, n_arcs, n_laws);

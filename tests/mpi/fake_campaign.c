@@ -1,7 +1,8 @@
 /* A whole campaign over the stand-in simulation, for mpirun: fake_campaign N OUT [enough_at [max_failed [budget_s]]]
  *
  * Rank 0 writes the records, sorted by id, to OUT and one line of facts to stdout, and leaves with the campaign's exit
- * code. Every rank says `ready` on stderr. FAKE_OTHER_RANK=r makes rank r read another campaign; FAKE_NO_CAMPAIGN_RANK=r makes it read none. */
+ * code. Every rank says `ready` on stderr. FAKE_OTHER_RANK=r makes rank r read another campaign;
+ * FAKE_NO_CAMPAIGN_RANK=r makes it read none. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -54,7 +55,7 @@ static int lead(const fw_campaign *c, const char *path, uint64_t enough_at)
     if (s != FW_OK) fprintf(stderr, "%s\n", m.text);
     fw_memory_sink_sort(&sink);
     f = fopen(path, "wb");
-    if (!f || fwrite(sink.bytes, sink.n_bytes, sink.n, f) != sink.n || fclose(f)) s = FW_E_IO;
+    if (!f || (sink.n && fwrite(sink.bytes, sink.n_bytes, sink.n, f) != sink.n) || fclose(f)) s = FW_E_IO;
     fw_memory_sink_destroy(&sink);
     return fw_status_exit_code(s);
 }

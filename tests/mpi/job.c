@@ -47,6 +47,8 @@ fw_job fw_job_start(const char *folder, const char *name, int n_ranks, const cha
     while (*argv && n < MAX_ARGUMENTS - 1) line[n++] = *argv++;
     line[n] = NULL;
 
+    unlink(j.out); /* nobody shall read what the last job of this name said */
+    unlink(j.err);
     j.pid = fork();
     if (j.pid == 0) {
         int in = open("/dev/null", O_RDONLY), out = open(j.out, O_WRONLY | O_CREAT | O_TRUNC, 0666),
@@ -129,7 +131,8 @@ static bool job_stat(pid_t pid, pid_t *parent, char *state)
     snprintf(path, sizeof path, "/proc/%d/stat", (int)pid);
     f = fopen(path, "r");
     if (!f) return false;
-    is_there = fgets(text, sizeof text, f) && (end = strrchr(text, ')')) && sscanf(end + 1, " %c %d", state, &ppid) == 2;
+    is_there = fgets(text, sizeof text, f) && (end = strrchr(text, ')')) &&
+               sscanf(end + 1, " %c %d", state, &ppid) == 2;
     fclose(f);
     *parent = ppid;
     return is_there;

@@ -1,4 +1,5 @@
-/* Start a command line as a test's child, gather what it prints, wait for it, signal it, or kill it with all its ranks. */
+/* Start a command line as a test's child, gather what it prints, wait for it, signal it, or kill it with all its
+ * ranks. */
 #ifndef TESTS_MPI_JOB_H
 #define TESTS_MPI_JOB_H
 

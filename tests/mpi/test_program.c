@@ -79,7 +79,8 @@ static void test_same_bits_on_any_number_of_ranks(void **state)
 
 static void test_bad_file_is_told_once(void **state)
 {
-    const char *const line[] = {FLOEWEAR, "run", path("small.yaml"), "-o", path("bad"), "--set", "ice.density=9 m", NULL};
+    const char *const line[] = {FLOEWEAR,    "run",   path("small.yaml"), "-o",
+                                path("bad"), "--set", "ice.density=9 m",  NULL};
     char             *text;
 
     (void)state;

@@ -1,5 +1,5 @@
-/* One campaign on one, two and three ranks over the stand-in simulation: the same bytes, the same decisions, and orderly
- * ends. FAKE_CAMPAIGN is the program of fake_campaign.c. */
+/* One campaign on one, two and three ranks over the stand-in simulation: the same bytes, the same decisions, and
+ * orderly ends. FAKE_CAMPAIGN is the program of fake_campaign.c. */
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -24,7 +24,8 @@ static void settings(const char *cost_ms, const char *spread, const char *fail_e
     unsetenv("FAKE_OTHER_RANK");
     unsetenv("FAKE_NO_CAMPAIGN_RANK");
     unsetenv("FAKE_REPORT_CPU");
-    /* After a non-zero exit mpirun waits twice this time before it ends; nothing of ours is left to be killed by then. */
+    /* After a non-zero exit mpirun waits twice this time before it ends; nothing of ours is left to be killed by
+     * then. */
     setenv("OMPI_MCA_odls_base_sigkill_timeout", "0", 1);
 }
 
@@ -198,8 +199,8 @@ static void test_signals(void **state)
     }
 }
 
-/* SIGINT to mpirun itself: it sends SIGTERM to the ranks and reports failure in its own way, whatever they say; what counts
- * is that all is in the sink within the second it grants. */
+/* SIGINT to mpirun itself: it sends SIGTERM to the ranks and reports failure in its own way, whatever they say; what
+ * counts is that all is in the sink within the second it grants. */
 static void test_interrupted_mpirun(void **state)
 {
     arguments a;

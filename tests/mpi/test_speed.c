@@ -1,9 +1,9 @@
 /* Two cores do the work of two: rank 0 computes while it serves.
  *
- * The yardstick is two single runs of half the work each at the same time, without a word between them: on a quiet machine
- * that is half the time of one run of all the work, on a busy one it is what the machine can give. `mpirun -n 2` may take
- * 1/0.925 of it (a speed-up of 1.85 where 2 is perfect). Best of some tries: others can only make a run slower.
- * FAKE_CAMPAIGN is the program of fake_campaign.c. */
+ * The yardstick is two single runs of half the work each at the same time, without a word between them: on a quiet
+ * machine that is half the time of one run of all the work, on a busy one it is what the machine can give. `mpirun
+ * -n 2` may take 1/0.925 of it (a speed-up of 1.85 where 2 is perfect). Best of some tries: others can only make a
+ * run slower. FAKE_CAMPAIGN is the program of fake_campaign.c. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -41,7 +41,8 @@ static void assert_speed_up(const char *cost_ms, const char *n, const char *half
     snprintf(more, sizeof more, "%s/more", folder);
     for (int i = 0; i < 2 || (apart < 0.925 * together && fw_job_seconds() < end); i++) {
         const char *const all[] = {FAKE_CAMPAIGN, n, records, NULL};
-        const char *const one[] = {FAKE_CAMPAIGN, half, records, NULL}, *const two[] = {FAKE_CAMPAIGN, half, more, NULL};
+        const char *const one[] = {FAKE_CAMPAIGN, half, records, NULL};
+        const char *const two[] = {FAKE_CAMPAIGN, half, more, NULL};
         fw_job            a = fw_job_start(folder, "a", 0, one), b = fw_job_start(folder, "b", 0, two), c;
         double            t;
 

@@ -37,7 +37,8 @@ int fw_bench_set_up(void **state)
     f = fopen(fw_bench_path("campaign", "yaml"), "w");
     if (!f || fputs(bench_campaign, f) < 0 || fclose(f) != 0) return -1;
     setenv("FAKE_SPREAD", "1", 1);
-    /* After a non-zero exit mpirun waits twice this time before it ends; nothing of ours is left to be killed by then. */
+    /* After a non-zero exit mpirun waits twice this time before it ends; nothing of ours is left to be killed by
+     * then. */
     setenv("OMPI_MCA_odls_base_sigkill_timeout", "0", 1);
     return 0;
 }

@@ -1,4 +1,5 @@
-/* A folder with a campaign file, and runs of the stand-in program in it. FAKE_FLOEWEAR is the program of fake_floewear.c. */
+/* A folder with a campaign file, and runs of the stand-in program in it. FAKE_FLOEWEAR is the program of
+ * fake_floewear.c. */
 #ifndef TESTS_RESTART_BENCH_H
 #define TESTS_RESTART_BENCH_H
 
@@ -17,7 +18,8 @@ int  fw_bench_tear_down(void **state);
 
 void fw_bench_cost(const char *ms); /* of one realisation; costs scatter by id between 0 and twice that */
 
-/* `run campaign.yaml -o FOLDER/stem --json extra...`; extra ends with NULL. stdout and stderr go to FOLDER/stem.out, .err. */
+/* `run campaign.yaml -o FOLDER/stem --json extra...`; extra ends with NULL. stdout and stderr go to FOLDER/stem.out,
+ * .err. */
 fw_job fw_bench_start(const char *stem, int n_ranks, const char *const *extra);
 int    fw_bench_run(const char *stem, int n_ranks, const char *const *extra);
 /* fw_bench_run without -o, every argument given */

@@ -16,6 +16,7 @@
 
 static const char *const few[]  = {"--set", "precision.max_realisations=40", NULL};
 static const char *const none[] = {NULL};
+static const char *const few_failed[] = {"--set", "precision.max_failed=2", NULL};
 
 static int set_up(void **state)
 {
@@ -95,7 +96,8 @@ static void test_unwritable_folder(void **state)
     assert_int_equal(rmdir(fw_bench_path("locked", "")), 0);
 }
 
-/* The disk fills up in mid-campaign: exit 4 with the reason; with room again the same command ends with the same bits. */
+/* The disk fills up in mid-campaign: exit 4 with the reason; with room again the same command ends with the same
+ * bits. */
 static void test_full_disk(void **state)
 {
     char small[512];
@@ -138,7 +140,8 @@ static void test_fresh_keeps_the_old_journal(void **state)
 
 static void test_output_names(void **state)
 {
-    const char *const line[] = {fw_bench_path("campaign", "yaml"), "-o", fw_bench_path("named", "h5"), few[0], few[1], NULL};
+    const char *const line[] = {fw_bench_path("campaign", "yaml"), "-o", fw_bench_path("named", "h5"), few[0], few[1],
+                                NULL};
 
     (void)state;
     assert_int_equal(fw_bench_call("call", 0, line), 0); /* -o NAME.h5 is NAME */
@@ -148,7 +151,8 @@ static void test_output_names(void **state)
 
 static void test_only_id_writes_nothing(void **state)
 {
-    const char *const text[] = {fw_bench_path("campaign", "yaml"), "-o", fw_bench_path("single", ""), "--only-id", "17", NULL};
+    const char *const text[] = {fw_bench_path("campaign", "yaml"), "-o", fw_bench_path("single", ""), "--only-id", "17",
+                                NULL};
 
     (void)state;
     assert_int_equal(fw_bench_run("single", 2, (const char *const[]){"--only-id", "17", NULL}), 0);
@@ -168,8 +172,7 @@ static void test_failures(void **state)
     (void)state;
     setenv("FAKE_FAIL_EVERY", "7", 1);
     for (int n_ranks = 1; n_ranks <= 2; n_ranks++) {
-        assert_int_equal(fw_bench_run("failing", n_ranks, (const char *const[]){"--set", "precision.max_failed=2", NULL}),
-                         3);
+        assert_int_equal(fw_bench_run("failing", n_ranks, few_failed), 3);
         assert_true(fw_bench_says("failing", "err", "failed: id 14 (seed 20260101): failed on purpose"));
     }
     unsetenv("FAKE_FAIL_EVERY");
