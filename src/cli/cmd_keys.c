@@ -4,6 +4,7 @@
 
 #include "cli/commands.h"
 #include "cli/config.h"
+#include "cli/output.h"
 
 typedef struct options {
     bool as_json;
@@ -32,9 +33,5 @@ int fw_cmd_keys(int argc, char **argv)
     argp_err_exit_status = fw_status_exit_code(FW_E_ARG);
     if (argp_parse(&argp, argc, argv, 0, NULL, &o) != 0) return fw_status_exit_code(FW_E_ARG);
     fw_config_print_keys(stdout, o.as_json);
-    if (fflush(stdout) != 0 || ferror(stdout)) {
-        fprintf(stderr, "floewear keys: standard output cannot be written\n");
-        return fw_status_exit_code(FW_E_IO);
-    }
-    return 0;
+    return fw_output_end("floewear keys");
 }

@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/config.h"
 #include "cli/json.h"
+#include "cli/output.h"
 #include "effects/effects.h"
 #include "floewear/campaign.h"
 #include "realisation/accuracy.h"
@@ -231,9 +232,9 @@ int fw_cmd_plan(int argc, char **argv)
         double   speed = p.n ? p.mean_speed : sc.speed;
         if (a.is_json) print_json(&c, &p, &f, speed);
         else print_text(&c, &p, &f, speed);
-    } else {
-        fprintf(stderr, "floewear plan: %s\n", m.text[0] ? m.text : fw_status_sentence(s));
+        s = fw_output_finish(&m);
     }
+    if (s != FW_OK) fprintf(stderr, "floewear plan: %s\n", m.text[0] ? m.text : fw_status_sentence(s));
     fw_campaign_free(&c);
     return fw_status_exit_code(s);
 }

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "cli/commands.h"
 #include "cli/config.h"
+#include "cli/output.h"
 #include "cli/report_table.h"
 
 typedef struct report_arguments {
@@ -134,8 +135,7 @@ static fw_status report_campaign(const report_arguments *a, const fw_campaign *c
         fw_report_print_table(stdout, c, &answer);
     }
     fw_answer_free(&answer);
-    FW_CHECK(fflush(stdout) == 0 && !ferror(stdout), m, FW_E_IO, "stdout: %s", strerror(errno));
-    return FW_OK;
+    return fw_output_finish(m);
 }
 
 static fw_status report(const report_arguments *a, fw_msg *m)

@@ -14,6 +14,7 @@
 #include "base/memory.h"
 #include "cli/commands.h"
 #include "cli/config.h"
+#include "cli/output.h"
 #include "cli/progress_line.h"
 #include "cli/record_print.h"
 #include "cli/report_table.h"
@@ -225,7 +226,7 @@ static fw_status run_answer(run_session *s, uint64_t n, const run_arguments *a, 
         } else {
             fw_report_print_table(stdout, s->campaign, &answer);
         }
-        if (fflush(stdout) != 0 || ferror(stdout)) status = fw_fail(m, FW_E_IO, "stdout: %s", strerror(errno));
+        status = fw_output_finish(m);
     }
     fw_answer_free(&answer);
     return status;

@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/config.h"
 #include "cli/json.h"
+#include "cli/output.h"
 #include "effects/effects.h"
 #include "floewear/realisation.h"
 #include "store/results.h"
@@ -180,11 +181,8 @@ int fw_cmd_scene(int argc, char **argv)
         if (a.is_json) print_json(&scene, &result);
         else print_text(&scene, &result);
     }
+    if (s == FW_OK) s = fw_output_finish(&m);
     if (s != FW_OK) fprintf(stderr, "floewear scene: %s\n", m.text[0] ? m.text : fw_status_sentence(s));
-    if (s == FW_OK && (fflush(stdout) != 0 || ferror(stdout))) {
-        fprintf(stderr, "floewear scene: standard output cannot be written\n");
-        s = FW_E_IO;
-    }
     fw_scene_result_free(&result);
     fw_scene_free(&scene);
     return fw_status_exit_code(s);

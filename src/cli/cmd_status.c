@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/json.h"
+#include "cli/output.h"
 #include "store/journal.h"
 
 typedef struct arguments {
@@ -122,9 +123,5 @@ int fw_cmd_status(int argc, char **argv)
         print_json(&f);
     else
         print_table(&f);
-    if (fflush(stdout) != 0 || ferror(stdout)) {
-        fprintf(stderr, "floewear status: standard output could not be written\n");
-        return fw_status_exit_code(FW_E_IO);
-    }
-    return 0;
+    return fw_output_end("floewear status");
 }

@@ -4,6 +4,7 @@
 
 #include "cli/commands.h"
 #include "cli/json.h"
+#include "cli/output.h"
 #include "effects/effects.h"
 #include "floewear/scenario.h"
 #include "physics/abrasion.h"
@@ -48,12 +49,12 @@ int fw_cmd_effects(int argc, char **argv)
         }
         fw_json_end(&j);
         fw_json_end(&j);
-        return 0;
+        return fw_output_end("floewear effects");
     }
     for (size_t i = 0; i < n; i++)
         printf("%-13s %s\n%-13s %s\n%-13s off: %s\n", e[i].name, e[i].does, "", e[i].needed, "", e[i].off);
     printf("\nSwitch with `effects: auto`, a list of names, or a map {name: on | off} in a campaign or scene file.\n");
-    return 0;
+    return fw_output_end("floewear effects");
 }
 
 int fw_cmd_laws(int argc, char **argv)
@@ -81,11 +82,11 @@ int fw_cmd_laws(int argc, char **argv)
         }
         fw_json_end(&j);
         fw_json_end(&j);
-        return 0;
+        return fw_output_end("floewear laws");
     }
     for (size_t i = 0; i < n; i++)
         printf("%-12s %s\n%-12s source: %s\n%-12s range: %s\n%-12s %s\n", all[i].law.name, all[i].equation, "", all[i].source, "", all[i].range,
                "", all[i].remark);
     printf("%-12s rate = coefficient sigma^exponent, 0 < exponent < 2: your own, as {power: {coefficient: .., exponent: ..}}\n", "power");
-    return 0;
+    return fw_output_end("floewear laws");
 }
