@@ -1,0 +1,27 @@
+# Install into a fresh folder, then configure, build and run the program of tests/house/consumer against it.
+# cmake -DBUILD=... -DSOURCE=... -DWORK=... -DGENERATOR=... -DCOMPILER=... -P install.cmake
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "${command}\n${output}")
+  endif()
+  message(STATUS "${output}")
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
+foreach(file bin/floewear include/floewear/realisation.h)
+  if(NOT EXISTS ${WORK}/prefix/${file})
+    message(FATAL_ERROR "${file} was not installed")
+  endif()
+endforeach()
+file(GLOB folder_libraries ${WORK}/prefix/lib*/libfw_* ${WORK}/prefix/lib*/*/libfw_*)
+if(folder_libraries)
+  message(FATAL_ERROR "the folder libraries are nobody's business outside: ${folder_libraries}")
+endif()
+run(${CMAKE_COMMAND} -S ${SOURCE}/tests/house/consumer -B ${WORK}/consumer -G ${GENERATOR}
+    -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCMAKE_C_COMPILER=${COMPILER})
+run(${CMAKE_COMMAND} --build ${WORK}/consumer)
+run(${WORK}/consumer/consumer)
+run(${WORK}/prefix/bin/floewear --version)
