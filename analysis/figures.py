@@ -1,0 +1,69 @@
+#!/usr/bin/python3
+"""Draw the figures of a floewear campaign from its results file.
+
+usage: figures.py RESULTS.h5 [-o FOLDER] [--points 1,6] [--formats svg,png]
+
+Writes NAME-polar and NAME-exceedance (NAME: the results file's) beside the results file or into FOLDER, and prints
+their paths. Needs Debian's python3-h5py and python3-matplotlib. The same results file gives the same bytes of SVG.
+"""
+import argparse
+import pathlib
+import re
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import exceedance  # noqa: E402  (the backend is chosen before pyplot is loaded)
+import polar  # noqa: E402
+from results import Results  # noqa: E402
+from style import apply_style  # noqa: E402
+
+
+def stable_ids(svg):
+    """Number the clip paths in order of appearance: matplotlib 3.6 hashes their memory addresses, salt or not."""
+    ids = {old: f"clip{i}" for i, old in enumerate(dict.fromkeys(re.findall(r'<clipPath id="(p[0-9a-f]+)"', svg)))}
+    return re.sub(r'(id="|url\(#)(p[0-9a-f]+)(?=["\)])', lambda m: m.group(1) + ids.get(m.group(2), m.group(2)), svg)
+
+
+def save(figure, folder, stem, formats):
+    # No dates and no version strings: two runs on the same results differ in nothing.
+    metadata = {"svg": {"Date": None, "Creator": None}, "png": {"Software": None}, "pdf": {"CreationDate": None}}
+    paths = []
+    for name in formats:
+        path = folder / f"{stem}.{name}"
+        figure.savefig(path, metadata=metadata.get(name))
+        if name == "svg":
+            path.write_text(stable_ids(path.read_text(encoding="utf-8")), encoding="utf-8")
+        paths.append(path)
+    return paths
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
+    parser.add_argument("results", type=pathlib.Path, help="NAME.h5 of floewear run")
+    parser.add_argument("-o", "--output", type=pathlib.Path, help="folder for figures (default: beside the results)")
+    parser.add_argument("--points", help="points of the exceedance figure, such as 1,6 (default: chosen by depth)")
+    parser.add_argument("--formats", default="svg,png", help="comma-separated: svg, png, pdf (default: %(default)s)")
+    options = parser.parse_args(arguments)
+
+    folder = options.output or options.results.parent
+    try:
+        results = Results(options.results)
+        folder.mkdir(parents=True, exist_ok=True)
+        points = [int(p) for p in options.points.split(",")] if options.points else None
+        apply_style()
+        for kind, figure in (("polar", polar.draw(results)), ("exceedance", exceedance.draw(results, points))):
+            for path in save(figure, folder, f"{options.results.stem}-{kind}", options.formats.split(",")):
+                print(f"figure: {path}")
+    except (OSError, ValueError) as error:
+        # h5py does not always say which file.
+        about = "" if str(options.results) in str(error) else f"{options.results}: "
+        print(f"figures.py: {about}{error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

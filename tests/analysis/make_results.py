@@ -1,0 +1,87 @@
+"""Synthetic results files for the tests of analysis/: the layout of src/store/results_write.c, numbers from known laws.
+
+A realisation's ring is a smooth bump facing the current times a lognormal factor. Depths are brute force: every
+realisation, every direction, N_T temperatures in the middles of equal shares of the law; percentiles are read from the
+sorted depths with their weights. Standard library, numpy and h5py only."""
+import math
+
+import h5py
+import numpy as np
+
+N_T = 400
+N_ARCS = 72
+ROSE = "{rose: {0 deg: 1, 90 deg: 2, 180 deg: 1, 270 deg: 4}}"
+ROSE_SHARES = {0.0: 0.125, 90.0: 0.25, 180.0: 0.125, 270.0: 0.5}
+CAMPAIGN = """name: {name}
+ice: {{temperature: {temperature}}}
+current: {{speed: 0.5 m/s, direction: {direction}}}
+"""
+
+
+def order_interval(n, p, confidence=0.95):
+    """Ranks (from 1) of the order-statistic interval of the p-quantile by the binomial law, None: no rank reaches."""
+    cdf = np.cumsum([math.comb(n, k) * p**k * (1.0 - p) ** (n - k) for k in range(n + 1)])
+    tail = (1.0 - confidence) / 2.0
+    low = int(np.searchsorted(cdf, tail, side="right"))
+    high = int(np.searchsorted(cdf, 1.0 - tail)) + 1
+    return (low if low >= 1 else None), (high if high <= n else None)
+
+
+def table(file, name, columns):
+    group = file.create_group(name)
+    for key, values in columns.items():
+        values = np.asarray(values)
+        group.create_dataset(key, data=values.astype("S") if values.dtype.kind == "U" else values)
+
+
+def depths(load, bearing, shares, temperatures):
+    """(depth [mm], weight) of every realisation, direction and temperature at one bearing, in ascending depth."""
+    coldest, warmest = temperatures
+    kelvin = np.abs(coldest + (np.arange(N_T) + 0.5) / N_T * (warmest - coldest))
+    rate = 0.116 * kelvin**-1.121
+    depth, weight = [], []
+    for flows_to, share in shares.items():
+        arc = int(((bearing - flows_to - 180.0) % 360.0) // (360.0 / N_ARCS))
+        depth.append(np.outer(load[:, arc], rate).ravel())
+        weight.append(np.full(depth[-1].size, share / depth[-1].size))
+    depth, weight = np.concatenate(depth), np.concatenate(weight)
+    order = np.argsort(depth)
+    return depth[order], weight[order]
+
+
+def make(path, name="synthetic", n=200, bearings=None, direction=ROSE, shares=None, temperatures=(-12.0, -2.0),
+         scale=1.0, percentiles=(50, 90, 95, 99), n_failed=0, sets=(), seed=1):
+    """shares: {direction: share}, what `direction` says; scale: of the wear load [1e-3 MPa^1.121 km]."""
+    random = np.random.default_rng(seed)
+    bearings = np.arange(0.0, 360.0, 15.0) if bearings is None else np.asarray(bearings, float)
+    shares = ROSE_SHARES if shares is None else shares
+    theta = np.radians((np.arange(N_ARCS) + 0.5) * 360.0 / N_ARCS)
+    load = scale * 1e-3 * np.exp(0.8 * random.standard_normal((n, 1))) * (0.02 + np.maximum(0.0, np.cos(theta)) ** 0.7)
+
+    rows, means = [], []
+    for point, bearing in enumerate(bearings, 1):
+        depth, weight = depths(load, bearing, shares, temperatures)
+        means.append(float(depth @ weight))
+        cdf = np.cumsum(weight)
+        for p in percentiles:
+            low, high = order_interval(n, p / 100.0)
+
+            def at(share):
+                return depth[min(np.searchsorted(cdf, share), len(depth) - 1)]
+            rows.append((point, bearing, float(p), at(p / 100.0), at((low - 1) / n) if low else math.nan,
+                         at(high / n) if high else math.nan, 0.95, "order statistics"))
+    keys = ("point", "bearing_deg", "percentile", "depth_mm", "low_mm", "high_mm", "coverage", "method")
+    numbers = np.arange(1, len(bearings) + 1)
+    with h5py.File(path, "w") as file:
+        law = f"{temperatures[0]} degC" if temperatures[0] == temperatures[1] else \
+            "{{uniform: [{} degC, {} degC]}}".format(*temperatures)
+        file.attrs["name"] = name
+        file.attrs["campaign"] = CAMPAIGN.format(name=name, direction=direction, temperature=law)
+        file.attrs["sets"] = np.array(sets, dtype=h5py.string_dtype())
+        table(file, "percentiles", dict(zip(keys, map(list, zip(*rows)))))
+        table(file, "points", {"point": numbers, "bearing_deg": bearings, "mean_mm": means})
+        table(file, "realisations", {"id": np.arange(n), "status": (np.arange(n) < n_failed).astype(np.int32),
+                                     "window": np.full(n, 10800.0), "wear_load": load[:, None, :]})
+        laws = np.array(["bekker2011"], dtype=h5py.string_dtype())
+        file["realisations/wear_load"].attrs["laws"] = laws
+    return path
