@@ -301,14 +301,13 @@ static fw_status run_print_record(void *self, const fw_record *r, fw_msg *m)
 {
     run_printer *p = self;
 
-    (void)m;
     p->status = r->status;
     if (p->is_json) {
         fw_record_print_json(stdout, p->campaign, r);
     } else {
         fw_record_print_text(stdout, r);
     }
-    return FW_OK;
+    return fw_output_finish(m);
 }
 
 static fw_status run_only(const fw_campaign *c, const run_arguments *a, fw_msg *m)

@@ -1,4 +1,5 @@
 /* floewear: the program. Finds the command and hands over; every command parses its own arguments. */
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -7,6 +8,7 @@
 #include "base/keys.h"
 #include "base/version.h"
 #include "cli/commands.h"
+#include "cli/output.h"
 #include "floewear/status.h"
 
 typedef struct command {
@@ -62,6 +64,7 @@ static int main_unknown(const char *word)
 
 int main(int argc, char **argv)
 {
+    signal(SIGXFSZ, SIG_IGN); /* a file size limit is a full disk: exit code 4, not a death by signal */
     argp_err_exit_status = 2; /* of argp in every command: wrong usage */
     if (argc < 2) {
         main_help(stderr);
@@ -69,11 +72,11 @@ int main(int argc, char **argv)
     }
     if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0) {
         main_help(stdout);
-        return 0;
+        return fw_output_end("floewear");
     }
     if (strcmp(argv[1], "--version") == 0 || strcmp(argv[1], "-V") == 0) {
         printf("floewear %s (%s)\n", fw_version(), fw_git_revision());
-        return 0;
+        return fw_output_end("floewear");
     }
     for (int i = 0; i < N_COMMANDS; i++) {
         const command *c = &main_commands[i];

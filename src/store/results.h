@@ -59,7 +59,7 @@ fw_record_source fw_results_records(fw_results *r); /* valid until r is closed *
 /* Trajectory of a scene (HDF5): /time (frames), /x /y /vx /vy /spin (frames x floes), /diameter /thickness (floes);
  * root attributes filetype "floewear trajectory", structure_radius_m, current_speed_m_s, temperature_degC, duration_s.
  * Published by close, like results: sealed, renamed from PATH.tmp. Frames go through memory in blocks of some 100
- * kB. */
+ * kB. Of what is there already only a trajectory is replaced: else FW_E_MISMATCH, or FW_E_IO for a device or folder. */
 typedef struct fw_trajectory fw_trajectory;
 fw_status     fw_trajectory_create(fw_trajectory **out, const char *path, const fw_scene *s, fw_msg *m);
 fw_frame_sink fw_trajectory_sink(fw_trajectory *t, double interval); /* [s]; FW_E_ARG: another number of floes */

@@ -1,10 +1,13 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/memory.h"
 #include "store/h5_data.h"
 #include "store/results.h"
+
+static const char FILETYPE[] = "floewear trajectory";
 
 enum { FORMAT_VERSION = 1, BLOCK_BYTES = 128 * 1024, MAX_BLOCK = 1024 };
 
@@ -70,7 +73,7 @@ static fw_status put_head(fw_trajectory *t, const fw_scene *s, fw_msg *m)
     const fw_h5_file *f = &t->file;
     fw_h5_shape       time = {.rank = 1, .dims = {0}, .chunk_rows = MAX_BLOCK, .is_growing = true};
     fw_h5_shape       state = {.rank = 2, .dims = {0, t->n_floes}, .chunk_rows = t->n_block, .is_growing = true};
-    FW_TRY(fw_h5_put_origin(f, "floewear trajectory", FORMAT_VERSION, m));
+    FW_TRY(fw_h5_put_origin(f, FILETYPE, FORMAT_VERSION, m));
     FW_TRY(fw_h5_put_double(f, f->id, "structure_radius_m", s->model.structure_radius, m));
     FW_TRY(fw_h5_put_double(f, f->id, "current_speed_m_s", s->speed, m));
     FW_TRY(fw_h5_put_double(f, f->id, "temperature_degC", s->temperature, m));
@@ -86,10 +89,29 @@ static fw_status put_head(fw_trajectory *t, const fw_scene *s, fw_msg *m)
     return FW_OK;
 }
 
+/* Only an older trajectory is replaced: the rename would take the place of anything, a campaign file or a device too. */
+static fw_status check_place(const char *path, fw_msg *m)
+{
+    struct stat there;
+    fw_h5_file  old;
+    char       *type = NULL;
+    if (stat(path, &there) != 0) return FW_OK; /* absent, or creating it says what is wrong */
+    FW_CHECK(S_ISREG(there.st_mode), m, FW_E_IO, "%s is not a regular file: a trajectory cannot take its place", path);
+    bool is_ours = fw_h5_file_open(&old, path, NULL) == FW_OK;
+    if (is_ours) {
+        is_ours = fw_h5_get_text(&old, "filetype", &type, NULL) == FW_OK && strcmp(type, FILETYPE) == 0;
+        free(type);
+        fw_h5_file_close(&old);
+    }
+    FW_CHECK(is_ours, m, FW_E_MISMATCH, "%s is there already and is no trajectory of floewear: choose another name", path);
+    return FW_OK;
+}
+
 fw_status fw_trajectory_create(fw_trajectory **out, const char *path, const fw_scene *s, fw_msg *m)
 {
     fw_trajectory *t;
     *out = NULL;
+    FW_TRY(check_place(path, m));
     FW_TRY(fw_alloc(&t, 1, sizeof *t, "a trajectory", m));
     size_t n_block = BLOCK_BYTES / (sizeof(double) * (s->n_floes > 0 ? s->n_floes : 1));
     t->n_floes = s->n_floes;

@@ -107,16 +107,28 @@ static void test_places_and_giving_up(void **state)
     fw_scene       scene = {.duration = 1.0};
     fw_trajectory *t;
     assert_int_equal(write_frames("missing-folder/t.h5", 3, 3, &msg), FW_E_IO);
-    help_save("v.h5", (const unsigned char *)"old", 3);
+    help_save("v.h5", (const unsigned char *)"old", 3); /* somebody's file: its place is not taken */
+    assert_int_equal(fw_trajectory_create(&t, "v.h5", &scene, &msg), FW_E_MISMATCH);
+    assert_int_equal(fw_trajectory_create(&t, "/dev/null", &scene, &msg), FW_E_IO);
+    assert_int_equal(fw_trajectory_create(&t, ".", &scene, &msg), FW_E_IO);
+    size_t         n;
+    unsigned char *old = help_load("v.h5", &n);
+    assert_int_equal(n, 3);
+    free(old);
+    unlink("v.h5");
+    assert_ok(write_frames("v.h5", 3, 3, &msg));
+    old = help_load("v.h5", &n);
     assert_ok(fw_trajectory_create(&t, "v.h5", &scene, &msg));
     fw_trajectory *second;
     assert_int_equal(fw_trajectory_create(&second, "v.h5", &scene, &msg), FW_E_IO); /* two at once would mix */
     fw_trajectory_abandon(t);
     assert_false(help_exists("v.h5.tmp"));
-    size_t         n;
-    unsigned char *old = help_load("v.h5", &n);
-    assert_int_equal(n, 3);
+    size_t         n_now;
+    unsigned char *now = help_load("v.h5", &n_now);
+    assert_int_equal(n_now, n);
+    assert_memory_equal(now, old, n);
     free(old);
+    free(now);
 }
 
 static void test_full_disk(void **state)
