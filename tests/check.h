@@ -26,7 +26,8 @@
     do {                                                                                                               \
         double got_ = (got), want_ = (want), tol_ = (tolerance);                                                       \
         if (!(fabs(got_ - want_) <= tol_ * fabs(want_))) {                                                             \
-            print_error("%s = %.17g, wanted %.17g (relative %.3g, allowed %g)\n", #got, got_, want_, got_ / want_ - 1, tol_); \
+            print_error("%s = %.17g, wanted %.17g (relative %.3g, allowed %g)\n", #got, got_, want_, got_ / want_ - 1, \
+                        tol_);                                                                                         \
             fail();                                                                                                    \
         }                                                                                                              \
     } while (0)

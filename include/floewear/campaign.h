@@ -8,44 +8,45 @@
 #include "floewear/status.h"
 
 typedef struct fw_points {
-    size_t  n;         /* measuring points, numbered from 1 at the first, clockwise */
-    double *bearing;   /* (n) [deg], outward normal clockwise from north, 0 <= . < 360; owned */
+    size_t  n;       /* measuring points, numbered from 1 at the first, clockwise */
+    double *bearing; /* (n) [deg], outward normal clockwise from north, 0 <= . < 360; owned */
 } fw_points;
 
 typedef enum fw_quantity { FW_QUANTITY_PERCENTILE, FW_QUANTITY_MEAN } fw_quantity;
 
 typedef struct fw_precision {
     fw_quantity quantity;
-    double      percentile;       /* 0..100 when quantity is a percentile */
-    double      half_width;       /* relative, 0.1 = 10 %; 0: no precision asked, run max_realisations */
-    double      confidence;       /* 0.95 */
+    double      percentile; /* 0..100 when quantity is a percentile */
+    double      half_width; /* relative, 0.1 = 10 %; 0: no precision asked, run max_realisations */
+    double      confidence; /* 0.95 */
     uint64_t    max_realisations;
-    uint64_t    max_failed;       /* more failures than this end the campaign with exit 3; default 1 % of max_realisations, at least 1 */
-    double      budget_s;         /* wall-clock budget of one call, 0: none (from --time-budget, not part of the hash) */
+    uint64_t
+        max_failed; /* more failures than this end the campaign with exit 3; default 1 % of max_realisations, at least 1 */
+    double budget_s; /* wall-clock budget of one call, 0: none (from --time-budget, not part of the hash) */
 } fw_precision;
 
 typedef struct fw_service {
     bool   is_asked;
     double life_years, ice_hours_per_year, year_to_year_cv, persistence;
-    double allowance;             /* [mm], 0: none */
+    double allowance; /* [mm], 0: none */
 } fw_service;
 
 typedef struct fw_campaign {
-    char         name[64];
-    char        *text;            /* the file as read, owned, NUL-terminated */
-    char        *settings;        /* canonical "key = value unit\n" lines of every key that shapes a record, after --set; owned.
+    char      name[64];
+    char     *text;     /* the file as read, owned, NUL-terminated */
+    char     *settings; /* canonical "key = value unit\n" lines of every key that shapes a record, after --set; owned.
                                    * Its hash names the campaign; comparing lines names the differing keys. */
-    uint64_t     hash;            /* of settings */
-    uint64_t     seed;
-    fw_model     model;
-    fw_site      site;
-    fw_points    points;
-    fw_precision precision;       /* not part of the hash: a run may be continued to a finer precision */
-    fw_service   service;         /* not part of the hash */
-    size_t       n_not_applied;   /* keys that are read and checked but not acted on yet */
-    char       (*not_applied)[96];/* (n_not_applied), owned */
-    size_t       n_sets;          /* --set overrides that settings already contains; kept so that text + sets give it again */
-    char       **sets;            /* (n_sets) "dotted.path=value", array and strings owned */
+    uint64_t  hash;     /* of settings */
+    uint64_t  seed;
+    fw_model  model;
+    fw_site   site;
+    fw_points points;
+    fw_precision precision;     /* not part of the hash: a run may be continued to a finer precision */
+    fw_service   service;       /* not part of the hash */
+    size_t       n_not_applied; /* keys that are read and checked but not acted on yet */
+    char (*not_applied)[96];    /* (n_not_applied), owned */
+    size_t n_sets; /* --set overrides that settings already contains; kept so that text + sets give it again */
+    char **sets;   /* (n_sets) "dotted.path=value", array and strings owned */
 } fw_campaign;
 
 void fw_campaign_free(fw_campaign *c);
@@ -80,22 +81,22 @@ typedef struct fw_watcher {
 } fw_watcher;
 
 typedef struct fw_run {
-    const fw_campaign  *campaign;
-    const uint64_t     *have;      /* (n_have) ids already in the journal, ascending: not computed again */
-    size_t              n_have;
-    const uint64_t     *have_failed;   /* (n_have_failed) those of them whose realisation failed, ascending */
-    size_t              n_have_failed;
-    fw_sink             sink;
-    fw_stop_rule        stop;      /* look may be NULL: run to max_realisations */
-    fw_watcher          watcher;   /* show may be NULL */
-    int64_t             only_id;   /* >= 0: this one only */
+    const fw_campaign *campaign;
+    const uint64_t    *have; /* (n_have) ids already in the journal, ascending: not computed again */
+    size_t             n_have;
+    const uint64_t    *have_failed; /* (n_have_failed) those of them whose realisation failed, ascending */
+    size_t             n_have_failed;
+    fw_sink            sink;
+    fw_stop_rule       stop;    /* look may be NULL: run to max_realisations */
+    fw_watcher         watcher; /* show may be NULL */
+    int64_t            only_id; /* >= 0: this one only */
 } fw_run;
 
 /* Filled on every return but FW_E_ARG, so that an early stop can be reported and continued. */
 typedef struct fw_run_result {
-    uint64_t n_prefix;  /* complete prefix 0..n_prefix-1 that the answer is made from */
+    uint64_t n_prefix;         /* complete prefix 0..n_prefix-1 that the answer is made from */
     uint64_t n_done, n_failed; /* records below max_realisations now in the sink, those of earlier calls included */
-    bool     is_enough; /* the stop rule said so (else max_realisations, or stopped) */
+    bool     is_enough;        /* the stop rule said so (else max_realisations, or stopped) */
 } fw_run_result;
 
 /* Collective over the ranks: start, then rank 0 calls run and the others serve until it ends, then stop.

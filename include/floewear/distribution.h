@@ -26,24 +26,25 @@ typedef enum fw_distribution_kind {
 typedef struct fw_distribution {
     fw_distribution_kind kind;
     double               a, b, c, d;
-    double               low, high;   /* truncation; -INFINITY, INFINITY when absent */
-    size_t               n;           /* FW_DIST_VALUES only */
-    double              *values;      /* (n) ascending, owned */
-    double              *weights;     /* (n) sum to 1, owned */
+    double               low, high; /* truncation; -INFINITY, INFINITY when absent */
+    size_t               n;         /* FW_DIST_VALUES only */
+    double              *values;    /* (n) ascending, owned */
+    double              *weights;   /* (n) sum to 1, owned */
 } fw_distribution;
 
-void        fw_distribution_constant(fw_distribution *d, double value);
+void      fw_distribution_constant(fw_distribution *d, double value);
 /* Takes copies of values and weights, sorts them and joins equal values. FW_E_ARG: n = 0, a weight < 0 or not finite,
  * |sum - 1| > 1e-6 (the weights are then renormalised to 1 exactly). */
-fw_status   fw_distribution_values(fw_distribution *d, size_t n, const double *values, const double *weights, fw_msg *m);
-fw_status   fw_distribution_check(const fw_distribution *d, fw_msg *m); /* parameters legal, mass inside [low, high] > 0 */
-const char *fw_distribution_kind_name(fw_distribution_kind k);          /* "weibull" */
+fw_status fw_distribution_values(fw_distribution *d, size_t n, const double *values, const double *weights, fw_msg *m);
+fw_status fw_distribution_check(const fw_distribution *d,
+                                fw_msg                *m);                    /* parameters legal, mass inside [low, high] > 0 */
+const char *fw_distribution_kind_name(fw_distribution_kind k); /* "weibull" */
 
-double fw_distribution_quantile(const fw_distribution *d, double u);    /* u in (0, 1); FW_DIST_CONSTANT ignores u */
-double fw_distribution_cdf(const fw_distribution *d, double x);         /* P(X <= x) */
-double fw_distribution_cdf_left(const fw_distribution *d, double x);    /* P(X < x) */
+double fw_distribution_quantile(const fw_distribution *d, double u); /* u in (0, 1); FW_DIST_CONSTANT ignores u */
+double fw_distribution_cdf(const fw_distribution *d, double x);      /* P(X <= x) */
+double fw_distribution_cdf_left(const fw_distribution *d, double x); /* P(X < x) */
 double fw_distribution_mean(const fw_distribution *d);
-double fw_distribution_min(const fw_distribution *d);                   /* ends of the support, may be infinite */
+double fw_distribution_min(const fw_distribution *d); /* ends of the support, may be infinite */
 double fw_distribution_max(const fw_distribution *d);
 
 fw_status fw_distribution_copy(fw_distribution *to, const fw_distribution *from, fw_msg *m);

@@ -16,7 +16,8 @@ typedef struct fw_tick {
 /* A record is a pure function of (model, scenario). A realisation that fails gives FW_OK here and a record with its status
  * and cause; another return value means that there is no record (no memory, stopped by the tick).
  * tick may be NULL. out is initialised here; the caller frees it with fw_record_free. */
-fw_status fw_realise(const fw_model *model, const fw_scenario *scenario, const fw_tick *tick, fw_record *out, fw_msg *m);
+fw_status fw_realise(const fw_model *model, const fw_scenario *scenario, const fw_tick *tick, fw_record *out,
+                     fw_msg *m);
 
 /* One given floe: position of its centre in the kernel frame (structure at the origin, current along +x). */
 typedef struct fw_floe {
@@ -31,7 +32,7 @@ typedef struct fw_scene {
     double   temperature; /* [degC] */
     double   duration;    /* [s] */
     size_t   n_floes;
-    fw_floe *floes;       /* (n_floes), owned */
+    fw_floe *floes; /* (n_floes), owned */
 } fw_scene;
 
 /* One saved instant, for trajectories: t and the floes' states then. */
@@ -42,14 +43,14 @@ typedef struct fw_frame_sink {
 } fw_frame_sink;
 
 typedef struct fw_scene_result {
-    fw_record record;                /* rings and ledgers; loads temperature-free */
-    double    path;                  /* int |vt| dt over all structure contacts [m] */
-    double    depth_along_contact;   /* int rate |vt| dt, first law [mm] */
-    double    depth_x_wall;          /* int rate |vt| b dt, first law [mm m] */
-    double    depth_impact;          /* share of depth_along_contact within 2/w of a first touch [mm] */
-    double    max_overlap;           /* [m] */
+    fw_record record;              /* rings and ledgers; loads temperature-free */
+    double    path;                /* int |vt| dt over all structure contacts [m] */
+    double    depth_along_contact; /* int rate |vt| dt, first law [mm] */
+    double    depth_x_wall;        /* int rate |vt| b dt, first law [mm m] */
+    double    depth_impact;        /* share of depth_along_contact within 2/w of a first touch [mm] */
+    double    max_overlap;         /* [m] */
     size_t    n_floes;
-    fw_floe  *floes;                 /* (n_floes) final states, owned */
+    fw_floe  *floes; /* (n_floes) final states, owned */
 } fw_scene_result;
 
 fw_status fw_scene_run(const fw_scene *scene, const fw_tick *tick, const fw_frame_sink *frames, fw_scene_result *out,

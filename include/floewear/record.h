@@ -44,7 +44,7 @@ typedef struct fw_record {
 #define X(name, unit, long_name) double name;
     FW_RECORD_LIST(X)
 #undef X
-    size_t n_arcs, n_laws;
+    size_t  n_arcs, n_laws;
     /* Rings, arc k covers theta in [k, k+1) 2 pi / n_arcs, theta clockwise seen from above from the arc facing the
      * current; load per law is the temperature-free wear load int sigma^m |vt| dt [MPa^m km]. One block, owned:
      *   path (n_arcs) [km] | for each law: load, load_impact, load_high (n_arcs each) [MPa^m km] */

@@ -21,9 +21,9 @@ enum { FW_MAX_CLASSES = 16, FW_MAX_MIXES = 16, FW_MAX_LAWS = 4 };
 /* Effects that a scene may switch; one bit each. The table of names, reasons and rules is src/effects/effects.h. */
 typedef enum fw_effect_bit {
     FW_EFFECT_FLOE_CONTACT = 1u << 0,
-    FW_EFFECT_FRICTION     = 1u << 1,
-    FW_EFFECT_ROTATION     = 1u << 2,
-    FW_EFFECT_FORM_DRAG    = 1u << 3
+    FW_EFFECT_FRICTION = 1u << 1,
+    FW_EFFECT_ROTATION = 1u << 2,
+    FW_EFFECT_FORM_DRAG = 1u << 3
 } fw_effect_bit;
 enum { FW_EFFECTS_CORE = 0xf };
 
@@ -46,9 +46,9 @@ typedef enum fw_size_law {
 } fw_size_law;
 
 typedef struct fw_abrasion_law {
-    char   name[24];    /* "bekker2011", "archard", "power" */
-    double coefficient; /* a: rate = a (sigma / |T|)^exponent [mm/km], sigma in MPa, T in degC */
-    double exponent;    /* m, 0 < m < 2 */
+    char   name[24];         /* "bekker2011", "archard", "power" */
+    double coefficient;      /* a: rate = a (sigma / |T|)^exponent [mm/km], sigma in MPa, T in degC */
+    double exponent;         /* m, 0 < m < 2 */
     bool   uses_temperature; /* false: rate = a sigma^exponent */
 } fw_abrasion_law;
 
@@ -56,15 +56,15 @@ typedef struct fw_abrasion_law {
 double fw_abrasion_rate(const fw_abrasion_law *law, double temperature);
 
 typedef struct fw_model {
-    double structure_radius; /* [m] */
-    double ice_density;      /* [kg/m3] */
-    double water_density;    /* [kg/m3] */
-    double form_drag;        /* Cf on the side area D h [-] */
-    double stiffness;        /* k [N/m] */
-    double damping_ratio;    /* zeta [-]: c = zeta 2 sqrt(k m_eff) */
-    double friction;         /* mu [-] */
-    double slip_damping_ratio; /* ct = slip_damping_ratio c [-] */
-    uint32_t effects;          /* fw_effect_bit set */
+    double   structure_radius;   /* [m] */
+    double   ice_density;        /* [kg/m3] */
+    double   water_density;      /* [kg/m3] */
+    double   form_drag;          /* Cf on the side area D h [-] */
+    double   stiffness;          /* k [N/m] */
+    double   damping_ratio;      /* zeta [-]: c = zeta 2 sqrt(k m_eff) */
+    double   friction;           /* mu [-] */
+    double   slip_damping_ratio; /* ct = slip_damping_ratio c [-] */
+    uint32_t effects;            /* fw_effect_bit set */
 
     size_t          n_laws;
     fw_abrasion_law laws[FW_MAX_LAWS]; /* the first one governs stop rule and default report */
@@ -74,13 +74,13 @@ typedef struct fw_model {
     fw_size_law      size_law;
     double           size_a, size_b;
 
-    double window;     /* [s] */
-    double warm_up;    /* [s]; < 0: chosen by the realisation ("auto") */
-    double accuracy;   /* wanted relative discretisation error of a window's depth, 1e-4 .. 0.1 */
-    size_t n_arcs;     /* of the ring, >= 72; default 360 */
-    double strip_width;/* [m]; <= 0: auto (100 m) */
-    double downstream; /* floes are forgotten beyond this x [m]; <= 0: auto */
-    double plain_step; /* > 0: the plain every-floe method at this step [s], for benchmarks; 0: the kernel proper */
+    double window;      /* [s] */
+    double warm_up;     /* [s]; < 0: chosen by the realisation ("auto") */
+    double accuracy;    /* wanted relative discretisation error of a window's depth, 1e-4 .. 0.1 */
+    size_t n_arcs;      /* of the ring, >= 72; default 360 */
+    double strip_width; /* [m]; <= 0: auto (100 m) */
+    double downstream;  /* floes are forgotten beyond this x [m]; <= 0: auto */
+    double plain_step;  /* > 0: the plain every-floe method at this step [s], for benchmarks; 0: the kernel proper */
 } fw_model;
 
 typedef struct fw_scenario {
@@ -89,7 +89,7 @@ typedef struct fw_scenario {
     double   concentration; /* 0 .. 0.65 [-] */
     double   speed;         /* of the current [m/s], > 0 */
     uint32_t mix;           /* index into fw_model.mixes */
-    uint32_t cell;          /* index into fw_site.cells when the site has a joint table, else 0: names the direction law */
+    uint32_t cell; /* index into fw_site.cells when the site has a joint table, else 0: names the direction law */
 } fw_scenario;
 
 /* One cell of a joint site table: a value of (speed, concentration, thickness) with its share of time and the law of
@@ -102,13 +102,13 @@ typedef struct fw_site_cell {
 } fw_site_cell;
 
 typedef struct fw_site {
-    fw_distribution speed;         /* [m/s] */
-    fw_distribution concentration; /* [-] */
-    fw_distribution direction;     /* [deg], flows TO, clockwise from north; integrated, not sampled */
-    fw_distribution temperature;   /* [degC], < 0; integrated, not sampled */
+    fw_distribution speed;             /* [m/s] */
+    fw_distribution concentration;     /* [-] */
+    fw_distribution direction;         /* [deg], flows TO, clockwise from north; integrated, not sampled */
+    fw_distribution temperature;       /* [degC], < 0; integrated, not sampled */
     double          temperature_floor; /* smallest |T| allowed [K], default 1.8 */
-    size_t          n_cells;       /* > 0: joint table; then speed, concentration, direction above are unused */
-    fw_site_cell   *cells;         /* (n_cells), owned */
+    size_t          n_cells;           /* > 0: joint table; then speed, concentration, direction above are unused */
+    fw_site_cell   *cells;             /* (n_cells), owned */
 } fw_site;
 
 /* The direction law that a scenario's window belongs to. */

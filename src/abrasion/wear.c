@@ -10,16 +10,17 @@
 
 static const double TWO_PI = 6.283185307179586476925286766559;
 
-fw_status fw_wear_init(fw_wear *w, double structure_radius, size_t n_arcs, size_t n_laws, const fw_abrasion_law *laws, fw_msg *m)
+fw_status fw_wear_init(fw_wear *w, double structure_radius, size_t n_arcs, size_t n_laws, const fw_abrasion_law *laws,
+                       fw_msg *m)
 {
     memset(w, 0, sizeof *w);
     w->structure_radius = structure_radius;
-    w->n_arcs           = n_arcs;
-    w->n_laws           = n_laws;
-    w->high_pressure    = 5e6;
+    w->n_arcs = n_arcs;
+    w->n_laws = n_laws;
+    w->high_pressure = 5e6;
     double *block;
     FW_TRY(fw_alloc(&block, n_arcs * (1 + 3 * n_laws) + n_arcs + 1, sizeof *block, "wear ring", m));
-    w->path  = block;
+    w->path = block;
     w->share = block + n_arcs * (1 + 3 * n_laws);
     for (size_t l = 0; l < n_laws; l++) {
         w->exponent[l] = laws[l].exponent;
@@ -87,7 +88,7 @@ static void deposit(fw_wear *w, double dt, double normal, double slip, double ch
     double per_arc = chord * (double)w->n_arcs / (TWO_PI * w->structure_radius);
     double add_load[FW_MAX_LAWS];
     for (size_t l = 0; l < w->n_laws; l++) {
-        double load = sigma > 0 ? pow(sigma, w->exponent[l]) * way : 0;
+        double        load = sigma > 0 ? pow(sigma, w->exponent[l]) * way : 0;
         fw_wear_sums *s = &w->sums[l];
         s->path += way;
         s->along += load;
@@ -124,18 +125,22 @@ static void loaded_part(stages *s, const fw_wear_interval *iv, double *u0, doubl
     for (int n = 0; n < 40; n++) {
         double u = 0.5 * (lo + hi);
         stages_go_to(s, u);
-        if ((stages_value(s, iv->normal) > 0) == (first > 0)) lo = u;
-        else hi = u;
+        if ((stages_value(s, iv->normal) > 0) == (first > 0))
+            lo = u;
+        else
+            hi = u;
     }
-    if (first > 0) *u1 = lo;
-    else *u0 = hi;
+    if (first > 0)
+        *u1 = lo;
+    else
+        *u0 = hi;
 }
 
 void fw_wear_collect(fw_wear *w, const fw_wear_interval *iv)
 {
     if (!w->is_open || !(iv->length > 0)) return;
     /* Gauss-Legendre, 3 nodes on (0, 1). */
-    static const double NODE[3]   = {0.11270166537925831, 0.5, 0.88729833462074169};
+    static const double NODE[3] = {0.11270166537925831, 0.5, 0.88729833462074169};
     static const double WEIGHT[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
 
     double u0, u1;
@@ -146,11 +151,12 @@ void fw_wear_collect(fw_wear *w, const fw_wear_interval *iv)
     double turn = iv->angle[1] - iv->angle[0];
     turn -= TWO_PI * round(turn / TWO_PI);
     /* A patch that moves over several arcs in a step is set down often enough for the ring to look smooth. */
-    double arcs  = fabs(turn) * (u1 - u0) * (double)w->n_arcs / TWO_PI;
+    double arcs = fabs(turn) * (u1 - u0) * (double)w->n_arcs / TWO_PI;
     size_t parts = arcs > 24 ? 8 : (size_t)(arcs / 3) + 1;
     /* Substitution s = t^p, p = 1 - m/2 of the first law, t the time since touch, takes the t^(-m/2) of the pressure
      * out. Ten step lengths after the touch it is smooth enough without. */
-    double p = 1 - 0.5 * w->exponent[0], from = iv->since_touch + u0 * iv->length, to = iv->since_touch + u1 * iv->length;
+    double p = 1 - 0.5 * w->exponent[0], from = iv->since_touch + u0 * iv->length,
+           to = iv->since_touch + u1 * iv->length;
     bool   is_early = iv->since_touch < 10 * iv->length;
     double s0 = is_early ? pow(from, p) : from, s1 = is_early ? pow(to, p) : to;
     for (size_t part = 0; part < parts; part++) {
@@ -159,18 +165,18 @@ void fw_wear_collect(fw_wear *w, const fw_wear_interval *iv)
             double dt = (s1 - s0) * WEIGHT[q] / (double)parts;
             if (is_early) {
                 double s = t;
-                t        = pow(s, 1 / p);
+                t = pow(s, 1 / p);
                 dt *= t / (p * s);
             }
-            double u      = fmin(1.0, fmax(0.0, (t - iv->since_touch) / iv->length));
-            double depth  = hermite(iv->depth[0], iv->rate[0], iv->depth[1], iv->rate[1], iv->length, u);
+            double u = fmin(1.0, fmax(0.0, (t - iv->since_touch) / iv->length));
+            double depth = hermite(iv->depth[0], iv->rate[0], iv->depth[1], iv->rate[1], iv->length, u);
             stages_go_to(&at, u);
             double normal = stages_value(&at, iv->normal);
             if (!(depth > 0) || !(normal > 0)) continue;
-            double slip  = stages_value(&at, iv->slip);
+            double slip = stages_value(&at, iv->slip);
             double chord = fw_lens_chord(depth, iv->radius, w->structure_radius);
-            deposit(w, dt, normal, slip, chord, iv->angle[0] + turn * u, iv->thickness, u * iv->length < iv->impact_left,
-                    depth > 0.1 * fmin(iv->radius, w->structure_radius));
+            deposit(w, dt, normal, slip, chord, iv->angle[0] + turn * u, iv->thickness,
+                    u * iv->length<iv->impact_left, depth> 0.1 * fmin(iv->radius, w->structure_radius));
         }
     }
 }

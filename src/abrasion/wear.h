@@ -23,24 +23,24 @@ typedef struct fw_wear_sums {
 } fw_wear_sums;
 
 typedef struct fw_wear {
-    double  structure_radius;
-    size_t  n_arcs, n_laws;
-    double  exponent[FW_MAX_LAWS];
-    double  high_pressure; /* [Pa] the share above it is kept apart: 5 MPa */
-    bool    is_open;       /* collecting: false during warm-up */
-    double *path;          /* (n_arcs) [m] */
-    double *load[FW_MAX_LAWS][3]; /* (n_arcs) each: all, within 2/w of a hit, above high_pressure [Pa^m m] */
+    double       structure_radius;
+    size_t       n_arcs, n_laws;
+    double       exponent[FW_MAX_LAWS];
+    double       high_pressure;        /* [Pa] the share above it is kept apart: 5 MPa */
+    bool         is_open;              /* collecting: false during warm-up */
+    double      *path;                 /* (n_arcs) [m] */
+    double      *load[FW_MAX_LAWS][3]; /* (n_arcs) each: all, within 2/w of a hit, above high_pressure [Pa^m m] */
     fw_wear_sums sums[FW_MAX_LAWS];
-    double *share;         /* (n_arcs + 1) work */
+    double      *share; /* (n_arcs + 1) work */
 } fw_wear;
 
 /* One structure contact during one sub-step, as the integrator knows it: values at the stages' instants. */
 typedef struct fw_wear_interval {
-    double length;              /* of the sub-step [s] */
-    double since_touch;         /* time from the contact's closing to the sub-step's start [s] */
-    double impact_left;         /* time from the sub-step's start until 2/w after the hit; <= 0: over */
-    double depth[2], rate[2];   /* overlap [m] and closing rate [m/s] at both ends */
-    double angle[2];            /* ring angle of the contact at both ends [rad] */
+    double length;            /* of the sub-step [s] */
+    double since_touch;       /* time from the contact's closing to the sub-step's start [s] */
+    double impact_left;       /* time from the sub-step's start until 2/w after the hit; <= 0: over */
+    double depth[2], rate[2]; /* overlap [m] and closing rate [m/s] at both ends */
+    double angle[2];          /* ring angle of the contact at both ends [rad] */
     size_t n_stages;
     double at[FW_WEAR_STAGES];     /* instants as shares of length, the first 0, the last 1 */
     double normal[FW_WEAR_STAGES]; /* k d + c d' with its sign: the force is its positive part [N] */
@@ -48,7 +48,8 @@ typedef struct fw_wear_interval {
     double radius, thickness;      /* of the floe [m] */
 } fw_wear_interval;
 
-fw_status fw_wear_init(fw_wear *w, double structure_radius, size_t n_arcs, size_t n_laws, const fw_abrasion_law *laws, fw_msg *m);
+fw_status fw_wear_init(fw_wear *w, double structure_radius, size_t n_arcs, size_t n_laws, const fw_abrasion_law *laws,
+                       fw_msg *m);
 void      fw_wear_free(fw_wear *w);
 
 /* Add one interval to the ring; does nothing unless is_open. The ring's sum of load x arc length equals sums.x_wall. */

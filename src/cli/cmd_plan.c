@@ -36,7 +36,8 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     case KEY_JSON: a->is_json = true; return 0;
     case KEY_PILOT:
         a->pilot = strtol(arg, &end, 10);
-        if (*end || end == arg || a->pilot < 0 || a->pilot > 10000) argp_error(state, "--pilot takes a whole number from 0 to 10000, not '%s'", arg);
+        if (*end || end == arg || a->pilot < 0 || a->pilot > 10000)
+            argp_error(state, "--pilot takes a whole number from 0 to 10000, not '%s'", arg);
         return 0;
     case KEY_SEED:
         a->seed = strtoll(arg, &end, 10);
@@ -58,8 +59,14 @@ static const struct argp_option OPTIONS[] = {
     {"json", KEY_JSON, NULL, 0, "print JSON", 0},
     {0},
 };
-static const struct argp ARGP = {OPTIONS, parse, "CAMPAIGN.yaml", "Shows the effects the scenes call for and why, the accuracy settings, and the cost "
-                                 "and precision that a pilot predicts. Writes no results.", NULL, NULL, NULL};
+static const struct argp ARGP = {OPTIONS,
+                                 parse,
+                                 "CAMPAIGN.yaml",
+                                 "Shows the effects the scenes call for and why, the accuracy settings, and the cost "
+                                 "and precision that a pilot predicts. Writes no results.",
+                                 NULL,
+                                 NULL,
+                                 NULL};
 
 typedef struct pilot {
     size_t n, n_failed, n_wear;
@@ -82,7 +89,8 @@ static fw_status run_pilot(const fw_campaign *c, size_t n, pilot *p, fw_msg *m)
         p->mean_speed += r.speed;
         double load = 0;
         for (size_t k = 0; k < r.n_arcs; k++) load += fw_record_load(&r, 0, FW_RING_LOAD)[k];
-        if (r.status != FW_OK) p->n_failed++;
+        if (r.status != FW_OK)
+            p->n_failed++;
         else if (load > 0) {
             double l = log(load);
             p->n_wear++, sum += l, sum2 += l * l;
@@ -116,7 +124,8 @@ static bool effect_state(const fw_campaign *c, const fw_effect *e, char *reason,
 }
 
 typedef struct forecast {
-    double n, half_width, cpu_s, n_wanted; /* realisations of the run, what they reach, cost; realisations that the precision wants */
+    double n, half_width, cpu_s,
+        n_wanted; /* realisations of the run, what they reach, cost; realisations that the precision wants */
 } forecast;
 
 static forecast predict(const fw_campaign *c, const pilot *p)
@@ -126,7 +135,7 @@ static forecast predict(const fw_campaign *c, const pilot *p)
         double one = predicted_half_width(c, p, 1);
         if (c->precision.half_width > 0) {
             f.n_wanted = ceil(one * one / (c->precision.half_width * c->precision.half_width));
-            f.n        = fmin(f.n, fmax(f.n_wanted, 100));
+            f.n = fmin(f.n, fmax(f.n_wanted, 100));
         }
         f.half_width = one / sqrt(f.n);
     }
@@ -201,19 +210,26 @@ static void print_text(const fw_campaign *c, const pilot *p, const forecast *f, 
     fw_accuracy_line lines[16];
     size_t           n_lines = fw_accuracy_lines(&c->model, speed, lines, 16);
     printf("\naccuracy %g %% of a window's depth, at %.3g m/s\n", 100 * c->model.accuracy, speed);
-    for (size_t i = 0; i < n_lines; i++) printf("  %-13s %10.4g %-4s  %s\n", lines[i].name, lines[i].value, lines[i].unit, lines[i].why);
+    for (size_t i = 0; i < n_lines; i++)
+        printf("  %-13s %10.4g %-4s  %s\n", lines[i].name, lines[i].value, lines[i].unit, lines[i].why);
     if (p->n) {
-        printf("\npilot of %zu realisations: %.3g CPU s each in the mean, %.3g at most, %zu failed\n", p->n, p->cpu, p->cpu_max, p->n_failed);
-        if (p->n_wear > 1) printf("  spread between windows: %.2f in the log of the wear load over the ring\n", p->sd_log);
+        printf("\npilot of %zu realisations: %.3g CPU s each in the mean, %.3g at most, %zu failed\n", p->n, p->cpu,
+               p->cpu_max, p->n_failed);
+        if (p->n_wear > 1)
+            printf("  spread between windows: %.2f in the log of the wear load over the ring\n", p->sd_log);
         printf("\npredicted\n");
-        if (isfinite(f->n_wanted)) printf("  %.0f realisations reach a half-width of %.3g %%", f->n_wanted, 100 * c->precision.half_width);
-        if (isfinite(f->n_wanted)) printf(f->n_wanted > (double)c->precision.max_realisations ? ": more than max_realisations\n" : "\n");
-        printf("  a run of %.0f realisations costs %.3g CPU s: %.3g s on 1 core, %.3g s on 2, %.3g s on 16", f->n, f->cpu_s, f->cpu_s, f->cpu_s / 2,
-               f->cpu_s / 16);
+        if (isfinite(f->n_wanted))
+            printf("  %.0f realisations reach a half-width of %.3g %%", f->n_wanted, 100 * c->precision.half_width);
+        if (isfinite(f->n_wanted))
+            printf(f->n_wanted > (double)c->precision.max_realisations ? ": more than max_realisations\n" : "\n");
+        printf("  a run of %.0f realisations costs %.3g CPU s: %.3g s on 1 core, %.3g s on 2, %.3g s on 16", f->n,
+               f->cpu_s, f->cpu_s, f->cpu_s / 2, f->cpu_s / 16);
         if (isfinite(f->half_width)) printf("; half-width about %.2g %%", 100 * f->half_width);
-        printf("\n  (lognormal spread of the pilot; averaging over temperature and direction can only make it narrower)\n");
+        printf("\n  (lognormal spread of the pilot; averaging over temperature and direction can only make it "
+               "narrower)\n");
     }
-    for (size_t i = 0; i < c->n_not_applied; i++) printf("%s%s is read and checked but not applied in this version\n", i ? "" : "\n", c->not_applied[i]);
+    for (size_t i = 0; i < c->n_not_applied; i++)
+        printf("%s%s is read and checked but not applied in this version\n", i ? "" : "\n", c->not_applied[i]);
 }
 
 int fw_cmd_plan(int argc, char **argv)
@@ -228,10 +244,12 @@ int fw_cmd_plan(int argc, char **argv)
     if (s == FW_OK) {
         fw_scenario sc;
         fw_campaign_scenario(&c, 0, &sc);
-        forecast f     = predict(&c, &p);
+        forecast f = predict(&c, &p);
         double   speed = p.n ? p.mean_speed : sc.speed;
-        if (a.is_json) print_json(&c, &p, &f, speed);
-        else print_text(&c, &p, &f, speed);
+        if (a.is_json)
+            print_json(&c, &p, &f, speed);
+        else
+            print_text(&c, &p, &f, speed);
         s = fw_output_finish(&m);
     }
     if (s != FW_OK) fprintf(stderr, "floewear plan: %s\n", m.text[0] ? m.text : fw_status_sentence(s));

@@ -48,15 +48,16 @@ static const struct argp_option OPTIONS[] = {
     {"json", KEY_JSON, NULL, 0, "print JSON", 0},
     {0},
 };
-static const struct argp ARGP = {OPTIONS, parse, "SCENE.yaml", "Runs given floes through the kernel: no sampling, no statistics.", NULL, NULL, NULL};
+static const struct argp ARGP = {
+    OPTIONS, parse, "SCENE.yaml", "Runs given floes through the kernel: no sampling, no statistics.", NULL, NULL, NULL};
 
 static double arc_angle(size_t k, size_t n) { return ((double)k + 0.5) * 360 / (double)n; }
 
 static void print_json(const fw_scene *s, const fw_scene_result *r)
 {
-    const fw_record *c    = &r->record;
+    const fw_record *c = &r->record;
     double           rate = fw_abrasion_rate(&s->model.laws[0], s->temperature);
-    fw_json          j    = fw_json_onto(stdout);
+    fw_json          j = fw_json_onto(stdout);
     fw_json_begin_object(&j);
 #define NUMBER(name, value) fw_json_key(&j, name), fw_json_number(&j, value)
     fw_json_key(&j, "structure");
@@ -139,19 +140,21 @@ static void print_text(const fw_scene *s, const fw_scene_result *r)
     printf("  path %.6g m, depth along the contact %.6g mm, depth x wall %.6g mm m\n", r->path, r->depth_along_contact,
            r->depth_x_wall);
     double rate = fw_abrasion_rate(&s->model.laws[0], s->temperature), worst = 0;
-    size_t at   = 0;
+    size_t at = 0;
     for (size_t k = 0; k < c->n_arcs; k++)
         if (fw_record_load(c, 0, FW_RING_LOAD)[k] > worst) worst = fw_record_load(c, 0, FW_RING_LOAD)[k], at = k;
     if (worst > 0)
-        printf("  deepest arc %.6g mm at %.4g deg from the current, clockwise seen from above\n", worst * rate, arc_angle(at, c->n_arcs));
+        printf("  deepest arc %.6g mm at %.4g deg from the current, clockwise seen from above\n", worst * rate,
+               arc_angle(at, c->n_arcs));
     printf("floes at the end\n  %4s %12s %12s %12s %12s %12s\n", "no.", "x m", "y m", "vx m/s", "vy m/s", "spin rad/s");
     for (size_t i = 0; i < r->n_floes; i++) {
         const fw_floe *f = &r->floes[i];
         printf("  %4zu %12.6f %12.6f %12.6f %12.6f %12.6f\n", i + 1, f->x, f->y, f->vx, f->vy, f->spin);
     }
-    printf("ledger\n  bookkeeping: energy %.1e, momentum %.1e, wear on the ring %.1e\n", c->energy_relative, c->momentum_relative,
-           c->wear_conservation);
-    printf("  energy balance of the trajectory %.2e (wanted %.2g); largest overlap %.4g m, %.3g %% of the time beyond the rigid-disc range\n",
+    printf("ledger\n  bookkeeping: energy %.1e, momentum %.1e, wear on the ring %.1e\n", c->energy_relative,
+           c->momentum_relative, c->wear_conservation);
+    printf("  energy balance of the trajectory %.2e (wanted %.2g); largest overlap %.4g m, %.3g %% of the time beyond "
+           "the rigid-disc range\n",
            c->energy_truncation, s->model.accuracy, r->max_overlap, 100 * c->overlap_time_share);
     printf("cost\n  %.0f force evaluations, %.0f steps, %.3g CPU s\n", c->force_evaluations, c->steps, c->host_cpu_s);
     if (c->status != FW_OK) printf("FAILED: %s\n", c->cause);
@@ -161,25 +164,27 @@ int fw_cmd_scene(int argc, char **argv)
 {
     arguments a = {.interval = "0.05 s"};
     argp_parse(&ARGP, argc, argv, 0, NULL, &a);
-    fw_scene        scene  = {0};
+    fw_scene        scene = {0};
     fw_scene_result result = {0};
-    fw_trajectory  *file   = NULL;
-    fw_frame_sink   sink   = {0};
-    fw_msg          m      = {""};
-    double          dt     = 0;
-    fw_status       s      = fw_config_scene(&scene, a.scene, a.n_sets, a.sets, &m);
+    fw_trajectory  *file = NULL;
+    fw_frame_sink   sink = {0};
+    fw_msg          m = {""};
+    double          dt = 0;
+    fw_status       s = fw_config_scene(&scene, a.scene, a.n_sets, a.sets, &m);
     if (s == FW_OK && a.trajectory) {
         s = fw_config_duration(a.interval, &dt, &m);
         if (s == FW_OK) s = fw_trajectory_create(&file, a.trajectory, &scene, &m);
         if (s == FW_OK) sink = fw_trajectory_sink(file, dt);
     }
     if (s == FW_OK) s = fw_scene_run(&scene, NULL, file ? &sink : NULL, &result, &m);
-    fw_msg    close_msg   = {""};
+    fw_msg    close_msg = {""};
     fw_status close_state = fw_trajectory_close(file, &close_msg);
     if (s == FW_OK && close_state != FW_OK) s = close_state, m = close_msg;
     if (result.record.rings) {
-        if (a.is_json) print_json(&scene, &result);
-        else print_text(&scene, &result);
+        if (a.is_json)
+            print_json(&scene, &result);
+        else
+            print_text(&scene, &result);
     }
     if (s == FW_OK) s = fw_output_finish(&m);
     if (s != FW_OK) fprintf(stderr, "floewear scene: %s\n", m.text[0] ? m.text : fw_status_sentence(s));

@@ -14,15 +14,20 @@ enum { KEY_JSON = 1000 };
 static error_t parse(int key, char *arg, struct argp_state *state)
 {
     bool *is_json = state->input;
-    if (key == KEY_JSON) *is_json = true;
-    else if (key == ARGP_KEY_ARG) argp_error(state, "no argument is expected, not '%s'", arg);
-    else return ARGP_ERR_UNKNOWN;
+    if (key == KEY_JSON)
+        *is_json = true;
+    else if (key == ARGP_KEY_ARG)
+        argp_error(state, "no argument is expected, not '%s'", arg);
+    else
+        return ARGP_ERR_UNKNOWN;
     return 0;
 }
 
-static const struct argp_option OPTIONS[]    = {{"json", KEY_JSON, NULL, 0, "print JSON", 0}, {0}};
-static const struct argp        EFFECTS_ARGP = {OPTIONS, parse, NULL, "Prints the effects, and when a scene needs them.", NULL, NULL, NULL};
-static const struct argp        LAWS_ARGP    = {OPTIONS, parse, NULL, "Prints the abrasion laws and their ranges.", NULL, NULL, NULL};
+static const struct argp_option OPTIONS[] = {{"json", KEY_JSON, NULL, 0, "print JSON", 0}, {0}};
+static const struct argp EFFECTS_ARGP = {OPTIONS, parse, NULL, "Prints the effects, and when a scene needs them.",
+                                         NULL,    NULL,  NULL};
+static const struct argp LAWS_ARGP = {OPTIONS, parse, NULL, "Prints the abrasion laws and their ranges.",
+                                      NULL,    NULL,  NULL};
 
 int fw_cmd_effects(int argc, char **argv)
 {
@@ -85,8 +90,10 @@ int fw_cmd_laws(int argc, char **argv)
         return fw_output_end("floewear laws");
     }
     for (size_t i = 0; i < n; i++)
-        printf("%-12s %s\n%-12s source: %s\n%-12s range: %s\n%-12s %s\n", all[i].law.name, all[i].equation, "", all[i].source, "", all[i].range,
-               "", all[i].remark);
-    printf("%-12s rate = coefficient sigma^exponent, 0 < exponent < 2: your own, as {power: {coefficient: .., exponent: ..}}\n", "power");
+        printf("%-12s %s\n%-12s source: %s\n%-12s range: %s\n%-12s %s\n", all[i].law.name, all[i].equation, "",
+               all[i].source, "", all[i].range, "", all[i].remark);
+    printf("%-12s rate = coefficient sigma^exponent, 0 < exponent < 2: your own, as {power: {coefficient: .., "
+           "exponent: ..}}\n",
+           "power");
     return fw_output_end("floewear laws");
 }

@@ -27,7 +27,8 @@ fw_status fw_cells_build(fw_cells *c, size_t n, const double *x, const double *y
     }
     if (n == 0) x0 = x1 = y0 = y1 = 0;
     FW_CHECK(is_finite, m, FW_E_NUMERIC, "a floe's position is not finite");
-    while ((x1 - x0) / size * ((y1 - y0) / size) > 8192 || (x1 - x0) / size > 4096 || (y1 - y0) / size > 4096) size *= 2;
+    while ((x1 - x0) / size * ((y1 - y0) / size) > 8192 || (x1 - x0) / size > 4096 || (y1 - y0) / size > 4096)
+        size *= 2;
     c->x0 = x0, c->y0 = y0, c->size = size;
     c->nx = (size_t)((x1 - x0) / size) + 1, c->ny = (size_t)((y1 - y0) / size) + 1;
     size_t n_cells = c->nx * c->ny;
@@ -59,10 +60,11 @@ static void range(double at, double reach, double origin, double size, size_t n,
 {
     double a = floor((at - reach - origin) / size), b = floor((at + reach - origin) / size) + 1;
     *from = a > 0 ? (a < (double)n ? (size_t)a : n) : 0;
-    *to   = b > 0 ? (b < (double)n ? (size_t)b : n) : 0;
+    *to = b > 0 ? (b < (double)n ? (size_t)b : n) : 0;
 }
 
-void fw_cells_range(const fw_cells *c, double x, double y, double reach, size_t *ix0, size_t *ix1, size_t *iy0, size_t *iy1)
+void fw_cells_range(const fw_cells *c, double x, double y, double reach, size_t *ix0, size_t *ix1, size_t *iy0,
+                    size_t *iy1)
 {
     range(x, reach, c->x0, c->size, c->nx, ix0, ix1);
     range(y, reach, c->y0, c->size, c->ny, iy0, iy1);

@@ -13,9 +13,9 @@ double fw_ring_angle(double x, double y)
 
 size_t fw_ring_cover(size_t n_arcs, double centre, double half, size_t *first, double *share)
 {
-    double n     = (double)n_arcs;
+    double n = (double)n_arcs;
     double scale = n / TWO_PI;
-    double low   = (centre - half) * scale, high = (centre + half) * scale; /* in arcs, may be negative */
+    double low = (centre - half) * scale, high = (centre + half) * scale; /* in arcs, may be negative */
     if (high - low > n) high = low + n;
     double a = floor(low);
     double k = a >= 0 && a < n ? a : fmod(a, n);

@@ -36,8 +36,8 @@ static void list_closed(fw_island *is)
 static void close_pair(fw_island *is, fw_pair *p)
 {
     fw_member *a = &is->members[p->a], *b = other(is, p);
-    p->is_closed   = true;
-    p->t_touch     = is->t;
+    p->is_closed = true;
+    p->t_touch = is->t;
     p->since_touch = 0;
     a->n_closed++;
     is->n_touched += !a->body->is_touched;
@@ -161,7 +161,7 @@ static double release(const fw_island *is)
 static void keep_books(fw_island *is, double h)
 {
     const fw_method *me = is->setup->method;
-    fw_ledger       *l  = is->ledger;
+    fw_ledger       *l = is->ledger;
     for (size_t i = 0; i < is->n_members; i++) {
         fw_member *m = &is->members[i];
         if (!m->n_closed) {
@@ -183,16 +183,18 @@ static void keep_books(fw_island *is, double h)
     }
     bool is_beyond = false;
     for (size_t k = 0; k < is->n_closed; k++) {
-        fw_pair *p = &is->pairs[is->closed[k]];
+        fw_pair   *p = &is->pairs[is->closed[k]];
         fw_member *a = &is->members[p->a], *b = other(is, p);
-        double jx = 0, jy = 0, rub = 0, push = 0, dashpot = 0, dropped = 0;
+        double     jx = 0, jy = 0, rub = 0, push = 0, dashpot = 0, dropped = 0;
         for (size_t s = 0; s < me->n_stages; s++) {
             double hb = h * me->b[s], n = p->normal[s], f = p->friction[s], d = p->depth[s], w = p->rate[s];
             jx += hb * (n * p->dir[s][0] - f * p->dir[s][1]), jy += hb * (n * p->dir[s][1] + f * p->dir[s][0]);
             rub += hb * f, push += hb * n;
             double spring = d > 0 ? p->law.k * d * w : 0;
-            if (n > 0) dashpot += hb * (n * w - spring);
-            else dropped -= hb * spring;
+            if (n > 0)
+                dashpot += hb * (n * w - spring);
+            else
+                dropped -= hb * spring;
             l->friction -= hb * f * p->slip[s];
             if (p->b == FW_WALL && n > l->peak_force) l->peak_force = n;
         }
@@ -215,17 +217,21 @@ static void keep_books(fw_island *is, double h)
         if (p->b == FW_WALL) {
             l->normal_impulse += push;
             double from = signed_normal(p, 0), to = signed_normal(p, last);
-            l->contact_time += from > 0 && to > 0 ? h : from > 0 ? h * from / (from - to) : to > 0 ? h * to / (to - from) : 0;
+            l->contact_time += from > 0 && to > 0 ? h
+                               : from > 0         ? h * from / (from - to)
+                               : to > 0           ? h * to / (to - from)
+                                                  : 0;
         }
         double small = fw_smaller(a->body->radius, b ? b->body->radius : is->structure_radius), d = p->depth[last];
-        l->max_overlap = fw_larger(l->max_overlap, d), l->max_overlap_share = fw_larger(l->max_overlap_share, d / small);
+        l->max_overlap = fw_larger(l->max_overlap, d),
+        l->max_overlap_share = fw_larger(l->max_overlap_share, d / small);
         if (d > 0.1 * small) is_beyond = true;
     }
     if (is_beyond) l->overlap_time += h;
     for (size_t i = 0; i < is->n_held; i++) {
         fw_member *m = &is->members[is->held[i]];
-        double mass = 1 / m->body->inv_mass, inertia = m->body->inv_inertia > 0 ? 1 / m->body->inv_inertia : 0;
-        double change = 0, work = 0, err = 0;
+        double     mass = 1 / m->body->inv_mass, inertia = m->body->inv_inertia > 0 ? 1 / m->body->inv_inertia : 0;
+        double     change = 0, work = 0, err = 0;
         for (int q = 0; q < 3; q++) {
             double in = q < 2 ? mass : inertia, dv = m->v1[q] - m->v0[q], mean = 0.5 * (m->v1[q] + m->v0[q]);
             change += in * dv * mean;
@@ -245,13 +251,13 @@ static void collect_wear(fw_island *is, double h)
     for (size_t k = 0; k < is->n_closed; k++) {
         fw_pair *p = &is->pairs[is->closed[k]];
         if (p->b != FW_WALL) continue;
-        const fw_member *a    = &is->members[p->a];
+        const fw_member *a = &is->members[p->a];
         size_t           last = me->n_stages - 1;
         if (!(p->normal[0] > 0) && !(p->normal[last] > 0)) continue;
         fw_wear_interval iv = {.length = h, .since_touch = p->since_touch};
         iv.impact_left = a->body->t_hit + 2 / p->law.omega - is->t;
-        iv.depth[0]    = p->since_touch > 0 ? p->depth[0] : 0; /* landed on the touch to rounding */
-        iv.depth[1]    = p->depth[last];
+        iv.depth[0] = p->since_touch > 0 ? p->depth[0] : 0; /* landed on the touch to rounding */
+        iv.depth[1] = p->depth[last];
         iv.rate[0] = p->rate[0], iv.rate[1] = p->rate[last];
         iv.angle[0] = fw_ring_angle(a->x0, a->y0), iv.angle[1] = fw_ring_angle(a->x1, a->y1);
         iv.n_stages = me->n_stages;
@@ -265,7 +271,7 @@ static void collect_wear(fw_island *is, double h)
 /* The step's end becomes the next step's start. */
 static fw_status move_on(fw_island *is, double h, fw_msg *msg)
 {
-    const fw_method *me   = is->setup->method;
+    const fw_method *me = is->setup->method;
     size_t           last = me->n_stages - 1;
     bool             any_open = false;
     is->t += h;
@@ -336,12 +342,14 @@ static fw_status fly(fw_island *is, double t_end, double *h, fw_msg *m)
 fw_status fw_island_advance(fw_island *is, double t_end, fw_msg *msg)
 {
     const fw_setup *set = is->setup;
-    double          h   = INFINITY;
+    double          h = INFINITY;
     bool            is_stale = false;
     for (size_t i = 0; i < is->n_members; i++) {
         if (!is->members[i].n_closed) continue;
-        if (is->members[i].body->step > 0) h = fmin(h, is->members[i].body->step);
-        else is_stale = true;
+        if (is->members[i].body->step > 0)
+            h = fmin(h, is->members[i].body->step);
+        else
+            is_stale = true;
     }
     /* A pair listed late overlaps already: it is closed now, and counted. */
     for (size_t k = 0; k < is->n_pairs; k++) {
@@ -372,7 +380,7 @@ fw_status fw_island_advance(fw_island *is, double t_end, fw_msg *msg)
             if (!(err <= 1) && dt * w > 1e-9) {
                 double f = isfinite(err) ? fmax(0.2, 0.9 * pow(err, -1.0 / set->method->error_order)) : 0.1;
                 dt *= fmin(f, 0.9);
-                want   = dt;
+                want = dt;
                 is_cut = false;
                 is->ledger->rejected++;
                 continue;
@@ -382,7 +390,7 @@ fw_status fw_island_advance(fw_island *is, double t_end, fw_msg *msg)
             /* Land on the first touch; each landing is a step of its own length, so the cubic it comes from gets better. */
             double touch = first_touch(is, dt);
             if (touch < dt * (1 - 1e-9) && landings++ < MAX_LANDINGS) {
-                dt     = fmax(touch, 1e-12 / w);
+                dt = fmax(touch, 1e-12 / w);
                 is_cut = true;
                 continue;
             }
@@ -410,8 +418,8 @@ fw_status fw_island_advance(fw_island *is, double t_end, fw_msg *msg)
             }
         }
         double f = err > 0 ? 0.9 * pow(err, -1.0 / set->method->error_order) : set->growth;
-        f        = fmin(set->growth, f);
-        h        = is_cut || dt < want ? fmax(want, dt * f) : dt * f;
+        f = fmin(set->growth, f);
+        h = is_cut || dt < want ? fmax(want, dt * f) : dt * f;
         /* Accelerations are velocity differences over the step: after a sliver of one they are rounding noise. */
         if (is_touch || dt * w < 1e-6) restart(is, &h);
         if (t_end - is->t < 1e-12 * (1 + fabs(t_end))) is->t = t_end;

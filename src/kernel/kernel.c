@@ -20,27 +20,39 @@ struct fw_kernel {
     fw_neighbours neighbours;
     double        macro_time;
     /* work, grown between steps */
-    int32_t   *root;      size_t root_capacity;    /* union-find over awake floes */
-    int32_t   *member_of; size_t member_capacity;  /* awake floe -> member of the island being built */
-    double    *way;       size_t way_capacity;      /* speeds of awake floes relative to the water [m/s] */
-    double    *stirred_at; size_t stirred_capacity; /* from when on a contact may change its velocity, after the macro-step's
+    int32_t      *root;
+    size_t        root_capacity; /* union-find over awake floes */
+    int32_t      *member_of;
+    size_t        member_capacity; /* awake floe -> member of the island being built */
+    double       *way;
+    size_t        way_capacity; /* speeds of awake floes relative to the water [m/s] */
+    double       *stirred_at;
+    size_t        stirred_capacity; /* from when on a contact may change its velocity, after the macro-step's
                                                       * start [s]; INFINITY: not within it */
-    bool      *is_gone;   size_t gone_capacity;
-    fw_member *members;   size_t members_capacity;
-    fw_pair   *pairs;     size_t pairs_capacity;
-    int32_t   *closed;    size_t closed_capacity;
-    int32_t   *held;      size_t held_capacity;
-    struct link { int32_t root, i, j, contact; } *links; size_t link_capacity; /* near or closed pairs by island */
-    fw_contact *contacts; size_t contacts_capacity; /* closed at the macro-step's end */
-    int32_t   *order;     size_t order_capacity;
+    bool         *is_gone;
+    size_t        gone_capacity;
+    fw_member    *members;
+    size_t        members_capacity;
+    fw_pair      *pairs;
+    size_t        pairs_capacity;
+    int32_t      *closed;
+    size_t        closed_capacity;
+    int32_t      *held;
+    size_t        held_capacity;
+    struct link {
+        int32_t root, i, j, contact;
+    }          *links;
+    size_t      link_capacity; /* near or closed pairs by island */
+    fw_contact *contacts;
+    size_t      contacts_capacity; /* closed at the macro-step's end */
 };
 
 fw_status fw_kernel_create(fw_kernel **out, const fw_setup *setup, fw_msg *m)
 {
-    FW_CHECK(setup->velocity_scale > 0 && setup->macro_length > 0 && setup->tolerance > 0 && setup->skin > 0, m, FW_E_ARG,
-             "kernel: velocity scale, macro length, tolerance and skin must be positive");
+    FW_CHECK(setup->velocity_scale > 0 && setup->macro_length > 0 && setup->tolerance > 0 && setup->skin > 0, m,
+             FW_E_ARG, "kernel: velocity scale, macro length, tolerance and skin must be positive");
     FW_TRY(fw_alloc(out, 1, sizeof **out, "kernel", m));
-    (*out)->setup      = *setup;
+    (*out)->setup = *setup;
     (*out)->macro_time = setup->macro_length / setup->velocity_scale;
     return FW_OK;
 }
@@ -60,7 +72,6 @@ void fw_kernel_destroy(fw_kernel *k)
     free(k->held);
     free(k->links);
     free(k->contacts);
-    free(k->order);
     free(k);
 }
 
@@ -79,11 +90,17 @@ static double undisturbed_gap(const fw_world *w, double x, double y, double radi
 
 fw_status fw_wake(const fw_setup *s, fw_world *w, size_t block, size_t row, fw_msg *m)
 {
-    fw_block *b    = &w->blocks[block];
-    double    r    = b->radius[row], h = b->thickness[row], mass = s->ice_density * 3.14159265358979323846 * r * r * h;
-    fw_body   body = {.x = b->x[row] + w->drift, .y = b->y[row], .vx = s->speed, .radius = r, .thickness = h,
-                      .inv_mass = 1 / mass, .inv_inertia = s->has_rotation ? 2 / (mass * r * r) : 0,
-                      .drag = s->drag_per_area * 2 * r * h, .name = b->first_name + row};
+    fw_block *b = &w->blocks[block];
+    double    r = b->radius[row], h = b->thickness[row], mass = s->ice_density * 3.14159265358979323846 * r * r * h;
+    fw_body   body = {.x = b->x[row] + w->drift,
+                      .y = b->y[row],
+                      .vx = s->speed,
+                      .radius = r,
+                      .thickness = h,
+                      .inv_mass = 1 / mass,
+                      .inv_inertia = s->has_rotation ? 2 / (mass * r * r) : 0,
+                      .drag = s->drag_per_area * 2 * r * h,
+                      .name = b->first_name + row};
     b->is_taken[row] = true;
     b->n_left--;
     return fw_world_add_body(w, &body, m);
@@ -94,13 +111,13 @@ static double way_relative_to_water(const fw_setup *s, const fw_body *b) { retur
 /* The earliest time at which the pair can meet, by its own flight or after one of them was hit; INFINITY: not within H. */
 static double meets_at(const fw_kernel *k, const fw_world *w, int32_t i, int32_t j, double H)
 {
-    const fw_setup *s       = &k->setup;
-    const fw_body  *a       = &w->bodies[i], *b = j == FW_WALL ? NULL : &w->bodies[j];
-    double          speed   = k->way[i] + (b ? k->way[j] : s->speed), reach = a->radius + (b ? b->radius : w->structure_radius);
-    double          dx = b ? a->x - b->x : a->x, dy = b ? a->y - b->y : a->y, d2 = dx * dx + dy * dy;
-    double          limit = reach + (speed + s->velocity_scale) * H * (1 + 1e-9);
+    const fw_setup *s = &k->setup;
+    const fw_body  *a = &w->bodies[i], *b = j == FW_WALL ? NULL : &w->bodies[j];
+    double speed = k->way[i] + (b ? k->way[j] : s->speed), reach = a->radius + (b ? b->radius : w->structure_radius);
+    double dx = b ? a->x - b->x : a->x, dy = b ? a->y - b->y : a->y, d2 = dx * dx + dy * dy;
+    double limit = reach + (speed + s->velocity_scale) * H * (1 + 1e-9);
     if (d2 > limit * limit) return INFINITY; /* most pairs within the skin end here */
-    double          stirred = j == FW_WALL ? k->stirred_at[i] : fw_smaller(k->stirred_at[i], k->stirred_at[j]);
+    double stirred = j == FW_WALL ? k->stirred_at[i] : fw_smaller(k->stirred_at[i], k->stirred_at[j]);
     double gap = sqrt(d2) - reach;
     if (!(gap > 0)) return 0;
     double alone = speed > 0 ? gap / speed : INFINITY;
@@ -110,17 +127,18 @@ static double meets_at(const fw_kernel *k, const fw_world *w, int32_t i, int32_t
 /* Who is in contact or may be hit within H, and when at the earliest. Times only fall, the least one is final at once. */
 static void stir(fw_kernel *k, const fw_world *w, double H)
 {
-    double *at       = k->stirred_at;
+    double *at = k->stirred_at;
     bool    is_final = false;
     for (size_t i = 0; i < w->n_bodies; i++) {
-        at[i]     = w->bodies[i].n_closed > 0 ? 0 : INFINITY;
+        at[i] = w->bodies[i].n_closed > 0 ? 0 : INFINITY;
         k->way[i] = way_relative_to_water(&k->setup, &w->bodies[i]);
     }
     while (!is_final) {
         is_final = true;
         for (size_t q = 0; q < k->neighbours.n_near; q++) {
-            fw_near e     = k->neighbours.near[q];
-            double  first = e.j < 0 ? at[e.i] : fw_smaller(at[e.i], at[e.j]), last = e.j < 0 ? at[e.i] : fw_larger(at[e.i], at[e.j]);
+            fw_near e = k->neighbours.near[q];
+            double  first = e.j < 0 ? at[e.i] : fw_smaller(at[e.i], at[e.j]),
+                   last = e.j < 0 ? at[e.i] : fw_larger(at[e.i], at[e.j]);
             if (e.j >= 0 && !w->bodies[e.i].is_touched && !w->bodies[e.j].is_touched && first == INFINITY) continue;
             if (last == 0) continue;
             double t = meets_at(k, w, e.i, e.j, H);
@@ -136,7 +154,7 @@ static void stir(fw_kernel *k, const fw_world *w, double H)
 static fw_status wake_near(fw_kernel *k, fw_world *w, double H, bool *is_changed, fw_msg *m)
 {
     const fw_setup *s = &k->setup;
-    *is_changed       = false;
+    *is_changed = false;
     for (size_t q = 0; q < k->neighbours.n_sleepers; q++) {
         fw_sleeper_near n = k->neighbours.sleepers[q];
         fw_block       *b = &w->blocks[n.block];
@@ -167,8 +185,10 @@ static int32_t find_root(int32_t *root, int32_t i)
 static void join(int32_t *root, int32_t i, int32_t j)
 {
     i = find_root(root, i), j = find_root(root, j);
-    if (i < j) root[j] = i;
-    else root[i] = j;
+    if (i < j)
+        root[j] = i;
+    else
+        root[i] = j;
 }
 
 static int link_order(const void *x, const void *y)
@@ -202,7 +222,8 @@ static fw_status find_links(fw_kernel *k, const fw_world *w, double H, size_t *n
     }
     for (size_t q = 0; q < k->neighbours.n_near; q++) {
         fw_near e = k->neighbours.near[q];
-        while (at < w->n_contacts && (w->contacts[at].i < e.i || (w->contacts[at].i == e.i && (uint32_t)w->contacts[at].j < (uint32_t)e.j)))
+        while (at < w->n_contacts &&
+               (w->contacts[at].i < e.i || (w->contacts[at].i == e.i && (uint32_t)w->contacts[at].j < (uint32_t)e.j)))
             at++;
         if (at < w->n_contacts && w->contacts[at].i == e.i && w->contacts[at].j == e.j) continue;
         if (!(meets_at(k, w, e.i, e.j, H) <= H)) continue;
@@ -231,18 +252,19 @@ static int32_t enrol(fw_kernel *k, fw_world *w, int32_t i, size_t *n_members)
 static void load_pair(fw_kernel *k, fw_world *w, const struct link *l, fw_pair *p, size_t *n_members)
 {
     const fw_setup *s = &k->setup;
-    p->a         = enrol(k, w, l->i, n_members);
-    p->b         = l->j == FW_WALL ? FW_WALL : enrol(k, w, l->j, n_members);
+    p->a = enrol(k, w, l->i, n_members);
+    p->b = l->j == FW_WALL ? FW_WALL : enrol(k, w, l->j, n_members);
     p->is_closed = l->contact >= 0;
     if (p->is_closed) {
         const fw_contact *c = &w->contacts[l->contact];
         p->law = c->law, p->t_touch = c->t_touch, p->since_touch = w->t - c->t_touch;
         if (p->since_touch <= 0) p->since_touch = 1e-12;
-        p->depth[0] = c->depth, p->rate[0] = c->rate, p->slip[0] = c->slip, p->normal[0] = c->normal, p->friction[0] = c->friction;
+        p->depth[0] = c->depth, p->rate[0] = c->rate, p->slip[0] = c->slip, p->normal[0] = c->normal,
+        p->friction[0] = c->friction;
         p->dir[0][0] = c->nx, p->dir[0][1] = c->ny;
     } else {
         double inv = w->bodies[l->i].inv_mass + (l->j == FW_WALL ? 0 : w->bodies[l->j].inv_mass);
-        p->law     = fw_contact_law_apply(&s->contact, 1 / inv);
+        p->law = fw_contact_law_apply(&s->contact, 1 / inv);
     }
 }
 
@@ -262,10 +284,17 @@ static fw_status save_island(fw_kernel *k, const fw_island *is, size_t *n_contac
         const fw_pair *p = &is->pairs[q];
         if (!p->is_closed) continue;
         FW_TRY(fw_grow(&k->contacts, &k->contacts_capacity, *n_contacts + 1, sizeof *k->contacts, "contacts", m));
-        k->contacts[(*n_contacts)++] = (fw_contact){
-            .i = is->members[p->a].index, .j = p->b == FW_WALL ? FW_WALL : is->members[p->b].index, .law = p->law,
-            .t_touch = p->t_touch, .depth = p->depth[0], .rate = p->rate[0], .slip = p->slip[0], .normal = p->normal[0],
-            .friction = p->friction[0], .nx = p->dir[0][0], .ny = p->dir[0][1]};
+        k->contacts[(*n_contacts)++] = (fw_contact){.i = is->members[p->a].index,
+                                                    .j = p->b == FW_WALL ? FW_WALL : is->members[p->b].index,
+                                                    .law = p->law,
+                                                    .t_touch = p->t_touch,
+                                                    .depth = p->depth[0],
+                                                    .rate = p->rate[0],
+                                                    .slip = p->slip[0],
+                                                    .normal = p->normal[0],
+                                                    .friction = p->friction[0],
+                                                    .nx = p->dir[0][0],
+                                                    .ny = p->dir[0][1]};
     }
     return FW_OK;
 }
@@ -275,14 +304,14 @@ static fw_status save_island(fw_kernel *k, const fw_island *is, size_t *n_contac
 static void split_accelerations(fw_island *is)
 {
     for (size_t i = 0; i < is->n_members; i++) {
-        fw_member *e  = &is->members[i];
+        fw_member *e = &is->members[i];
         e->drag[0][0] = e->a[0][0], e->drag[0][1] = e->a[0][1];
     }
     for (size_t q = 0; q < is->n_pairs; q++) {
         const fw_pair *p = &is->pairs[q];
         if (!p->is_closed) continue;
-        double fx = p->normal[0] * p->dir[0][0] - p->friction[0] * p->dir[0][1];
-        double fy = p->normal[0] * p->dir[0][1] + p->friction[0] * p->dir[0][0];
+        double     fx = p->normal[0] * p->dir[0][0] - p->friction[0] * p->dir[0][1];
+        double     fy = p->normal[0] * p->dir[0][1] + p->friction[0] * p->dir[0][0];
         fw_member *a = &is->members[p->a];
         a->drag[0][0] -= fx * a->body->inv_mass, a->drag[0][1] -= fy * a->body->inv_mass;
         if (p->b == FW_WALL) continue;
@@ -291,15 +320,25 @@ static void split_accelerations(fw_island *is)
     }
 }
 
-static fw_status run_islands(fw_kernel *k, fw_world *w, fw_wear *wear, size_t n_links, double t_end, size_t *n_contacts, fw_msg *m)
+static fw_status run_islands(fw_kernel *k, fw_world *w, fw_wear *wear, size_t n_links, double t_end, size_t *n_contacts,
+                             fw_msg *m)
 {
     const fw_setup *s = &k->setup;
     for (size_t from = 0, to; from < n_links; from = to) {
         size_t n_members = 0;
         for (to = from; to < n_links && k->links[to].root == k->links[from].root; to++)
             load_pair(k, w, &k->links[to], &k->pairs[to - from], &n_members);
-        fw_island is = {.setup = s, .t = w->t, .n_members = n_members, .n_pairs = to - from, .members = k->members,
-                        .pairs = k->pairs, .closed = k->closed, .held = k->held, .ledger = &w->ledger, .wear = wear, .structure_radius = s->structure_radius};
+        fw_island is = {.setup = s,
+                        .t = w->t,
+                        .n_members = n_members,
+                        .n_pairs = to - from,
+                        .members = k->members,
+                        .pairs = k->pairs,
+                        .closed = k->closed,
+                        .held = k->held,
+                        .ledger = &w->ledger,
+                        .wear = wear,
+                        .structure_radius = s->structure_radius};
         for (size_t q = 0; q < is.n_pairs; q++) is.n_closed += is.pairs[q].is_closed;
         split_accelerations(&is);
         FW_TRY(fw_island_advance(&is, t_end, m));
@@ -345,7 +384,7 @@ static void forget(fw_kernel *k, fw_world *w)
 
 fw_status fw_kernel_step(fw_kernel *k, fw_world *w, fw_wear *wear, double t_end, fw_msg *m)
 {
-    const fw_setup *s  = &k->setup;
+    const fw_setup *s = &k->setup;
     /* No sliver of a step at the end: an acceleration from a velocity difference over 1e-13 s is rounding noise. */
     bool            is_last = t_end - w->t <= k->macro_time * (1 + 1e-6);
     double          dt = is_last ? t_end - w->t : k->macro_time, t1 = is_last ? t_end : w->t + dt;
@@ -374,7 +413,7 @@ fw_status fw_kernel_step(fw_kernel *k, fw_world *w, fw_wear *wear, double t_end,
     if (n_contacts > 1) qsort(k->contacts, n_contacts, sizeof *k->contacts, contact_order);
     if (n_contacts) memcpy(w->contacts, k->contacts, n_contacts * sizeof *w->contacts);
     w->n_contacts = n_contacts;
-    w->t          = t1;
+    w->t = t1;
     w->drift += s->speed * dt;
     w->ledger.macro_steps++;
     forget(k, w);

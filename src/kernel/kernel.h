@@ -19,20 +19,20 @@ typedef struct fw_setup {
     double           speed;            /* of the current along +x [m/s] */
     fw_contact_law   contact;
     bool             has_floe_contact, has_drag, has_rotation, has_friction;
-    double           ice_density;      /* [kg/m3] of woken floes */
-    double           drag_per_area;    /* 1/2 rho_w Cf [kg/m3]: times D h gives fw_body.drag; 0 without drag */
+    double           ice_density;   /* [kg/m3] of woken floes */
+    double           drag_per_area; /* 1/2 rho_w Cf [kg/m3]: times D h gives fw_body.drag; 0 without drag */
     /* numerics */
     const fw_method *method;
-    double           tolerance;        /* local error of velocity per sub-step over velocity_scale */
-    double           velocity_scale;   /* [m/s] */
-    double           first_step;       /* after a touch, in 1/w */
-    double           growth;           /* largest factor from one sub-step to the next */
-    double           max_step;         /* in 1/w of the stiffest closed contact; INFINITY: none */
-    double           macro_length;     /* way of the current in one macro-step [m] */
-    double           skin;             /* neighbours are listed up to this gap [m] */
-    double           half_width;       /* of the strip: untouched floes outside are not there; INFINITY: all */
-    double           downstream;       /* floes past this x are forgotten [m]; INFINITY: none */
-    double           max_evaluations;  /* force evaluations allowed; INFINITY: no limit */
+    double           tolerance;       /* local error of velocity per sub-step over velocity_scale */
+    double           velocity_scale;  /* [m/s] */
+    double           first_step;      /* after a touch, in 1/w */
+    double           growth;          /* largest factor from one sub-step to the next */
+    double           max_step;        /* in 1/w of the stiffest closed contact; INFINITY: none */
+    double           macro_length;    /* way of the current in one macro-step [m] */
+    double           skin;            /* neighbours are listed up to this gap [m] */
+    double           half_width;      /* of the strip: untouched floes outside are not there; INFINITY: all */
+    double           downstream;      /* floes past this x are forgotten [m]; INFINITY: none */
+    double           max_evaluations; /* force evaluations allowed; INFINITY: no limit */
 } fw_setup;
 
 typedef struct fw_kernel fw_kernel;

@@ -17,8 +17,8 @@ typedef struct fw_method {
     double      gamma;              /* diagonal */
     double      a[FW_MAX_STAGES][FW_MAX_STAGES];
     double      c[FW_MAX_STAGES];
-    double      b[FW_MAX_STAGES];   /* equals the last row of a */
-    double      e[FW_MAX_STAGES];   /* b minus the embedded weights */
+    double      b[FW_MAX_STAGES]; /* equals the last row of a */
+    double      e[FW_MAX_STAGES]; /* b minus the embedded weights */
 } fw_method;
 
 extern const fw_method *const FW_METHOD_TRBDF2; /* order 2, 2 evaluations a step */

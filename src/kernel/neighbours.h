@@ -9,15 +9,17 @@ typedef struct fw_near {
 } fw_near;
 
 typedef struct fw_sleeper_near {
-    int32_t i;           /* awake floe, or FW_WALL */
-    size_t  block, row;  /* of the untouched floe */
+    int32_t i;          /* awake floe, or FW_WALL */
+    size_t  block, row; /* of the untouched floe */
 } fw_sleeper_near;
 
 typedef struct fw_neighbours {
-    fw_near         *near;     size_t n_near, near_capacity;         /* ordered by (i, j), structure last */
-    fw_sleeper_near *sleepers; size_t n_sleepers, sleeper_capacity;
+    fw_near         *near;
+    size_t           n_near, near_capacity; /* ordered by (i, j), structure last */
+    fw_sleeper_near *sleepers;
+    size_t           n_sleepers, sleeper_capacity;
     fw_cells         cells;
-    double           drift_listed; /* of the world when listed */
+    double           drift_listed;  /* of the world when listed */
     uint64_t         blocks_listed; /* the world's block_changes then */
     bool             is_valid;
 } fw_neighbours;

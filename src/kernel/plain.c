@@ -13,9 +13,12 @@ struct fw_plain {
     fw_setup              setup;
     double                dt, inlet;
     fw_neighbours         neighbours;
-    fw_contact_constants *law; size_t law_capacity; /* (n_near) */
-    double               *force; size_t force_capacity; /* (n_bodies x 3) */
-    bool                 *is_gone; size_t gone_capacity;
+    fw_contact_constants *law;
+    size_t                law_capacity; /* (n_near) */
+    double               *force;
+    size_t                force_capacity; /* (n_bodies x 3) */
+    bool                 *is_gone;
+    size_t                gone_capacity;
 };
 
 fw_status fw_plain_create(fw_plain **out, const fw_setup *setup, double dt, double inlet, fw_msg *m)
@@ -36,7 +39,10 @@ void fw_plain_destroy(fw_plain *p)
     free(p);
 }
 
-double fw_plain_needs_ice_from(const fw_plain *p, const fw_world *w) { return p->inlet - w->max_radius - p->setup.skin; }
+double fw_plain_needs_ice_from(const fw_plain *p, const fw_world *w)
+{
+    return p->inlet - w->max_radius - p->setup.skin;
+}
 
 static fw_status wake_all(fw_plain *p, fw_world *w, fw_msg *m)
 {
@@ -60,9 +66,9 @@ static fw_status list(fw_plain *p, fw_world *w, fw_msg *m)
     FW_TRY(fw_grow(&p->force, &p->force_capacity, 3 * w->n_bodies + 3, sizeof *p->force, "plain kernel", m));
     FW_TRY(fw_grow(&p->is_gone, &p->gone_capacity, w->n_bodies + 1, sizeof *p->is_gone, "plain kernel", m));
     for (size_t q = 0; q < p->neighbours.n_near; q++) {
-        fw_near n   = p->neighbours.near[q];
+        fw_near n = p->neighbours.near[q];
         double  inv = w->bodies[n.i].inv_mass + (n.j == FW_WALL ? 0 : w->bodies[n.j].inv_mass);
-        p->law[q]   = fw_contact_law_apply(&p->setup.contact, 1 / inv);
+        p->law[q] = fw_contact_law_apply(&p->setup.contact, 1 / inv);
     }
     return FW_OK;
 }
@@ -71,9 +77,17 @@ static fw_status list(fw_plain *p, fw_world *w, fw_msg *m)
 static void naive_wear(fw_wear *wear, const fw_body *b, double n, double slip, double depth, double dt)
 {
     if (!wear->is_open || !(n > 0)) return;
-    double           a  = fw_ring_angle(b->x, b->y);
-    fw_wear_interval iv = {.length = dt, .since_touch = 1e9, .n_stages = 2, .at = {0, 1}, .depth = {depth, depth}, .angle = {a, a},
-                           .normal = {n, n}, .slip = {slip, slip}, .radius = b->radius, .thickness = b->thickness};
+    double           a = fw_ring_angle(b->x, b->y);
+    fw_wear_interval iv = {.length = dt,
+                           .since_touch = 1e9,
+                           .n_stages = 2,
+                           .at = {0, 1},
+                           .depth = {depth, depth},
+                           .angle = {a, a},
+                           .normal = {n, n},
+                           .slip = {slip, slip},
+                           .radius = b->radius,
+                           .thickness = b->thickness};
     fw_wear_collect(wear, &iv);
 }
 
@@ -82,7 +96,7 @@ static void step(fw_plain *p, fw_world *w, fw_wear *wear, double dt)
     const fw_setup *s = &p->setup;
     double         *f = p->force;
     for (size_t i = 0; i < w->n_bodies; i++) {
-        const fw_body *b  = &w->bodies[i];
+        const fw_body *b = &w->bodies[i];
         double         rx = s->speed - b->vx, ry = -b->vy, drag = b->drag * sqrt(rx * rx + ry * ry);
         f[3 * i] = drag * rx, f[3 * i + 1] = drag * ry, f[3 * i + 2] = 0;
     }
@@ -90,8 +104,10 @@ static void step(fw_plain *p, fw_world *w, fw_wear *wear, double dt)
         fw_near  e = p->neighbours.near[q];
         fw_body *a = &w->bodies[e.i], *b = e.j == FW_WALL ? NULL : &w->bodies[e.j];
         double   dx = a->x, dy = a->y, ux = a->vx, uy = a->vy, turn = a->radius * a->spin, reach = a->radius;
-        if (b) dx -= b->x, dy -= b->y, ux -= b->vx, uy -= b->vy, turn += b->radius * b->spin, reach += b->radius;
-        else reach += s->structure_radius;
+        if (b)
+            dx -= b->x, dy -= b->y, ux -= b->vx, uy -= b->vy, turn += b->radius * b->spin, reach += b->radius;
+        else
+            reach += s->structure_radius;
         double r2 = dx * dx + dy * dy;
         if (r2 >= reach * reach) continue;
         double r = sqrt(r2), nx = dx / r, ny = dy / r, depth = reach - r;
@@ -99,7 +115,8 @@ static void step(fw_plain *p, fw_world *w, fw_wear *wear, double dt)
         double t = fw_contact_friction(&p->law[q], n, slip), fx = n * nx - t * ny, fy = n * ny + t * nx;
         w->ledger.force_evaluations++;
         f[3 * e.i] += fx, f[3 * e.i + 1] += fy, f[3 * e.i + 2] -= t * a->radius;
-        if (b) f[3 * e.j] -= fx, f[3 * e.j + 1] -= fy, f[3 * e.j + 2] -= t * b->radius;
+        if (b)
+            f[3 * e.j] -= fx, f[3 * e.j + 1] -= fy, f[3 * e.j + 2] -= t * b->radius;
         else {
             if (w->t - a->t_wall > 1 && wear->is_open) w->ledger.hits++;
             a->t_wall = w->t;
@@ -109,7 +126,8 @@ static void step(fw_plain *p, fw_world *w, fw_wear *wear, double dt)
     }
     for (size_t i = 0; i < w->n_bodies; i++) {
         fw_body *b = &w->bodies[i];
-        b->vx += dt * f[3 * i] * b->inv_mass, b->vy += dt * f[3 * i + 1] * b->inv_mass, b->spin += dt * f[3 * i + 2] * b->inv_inertia;
+        b->vx += dt * f[3 * i] * b->inv_mass, b->vy += dt * f[3 * i + 1] * b->inv_mass,
+            b->spin += dt * f[3 * i + 2] * b->inv_inertia;
         b->x += dt * b->vx, b->y += dt * b->vy;
     }
     w->t += dt;
@@ -133,7 +151,8 @@ fw_status fw_plain_step(fw_plain *p, fw_world *w, fw_wear *wear, double t_end, f
         fw_world_forget(w, p->is_gone);
         p->neighbours.is_valid = false;
     }
-    FW_CHECK(isfinite(fw_world_energy(w)), m, FW_E_NUMERIC, "plain method: the state is not finite at t = %.6g s", w->t);
+    FW_CHECK(isfinite(fw_world_energy(w)), m, FW_E_NUMERIC, "plain method: the state is not finite at t = %.6g s",
+             w->t);
     w->ledger.macro_steps++;
     return FW_OK;
 }

@@ -19,7 +19,7 @@ static double relative_speed(const fw_setup *s, const double v[3])
 static void geometry(const fw_island *is, const fw_pair *p, bool is_stage, double *nx, double *ny, double *depth)
 {
     const fw_member *a = &is->members[p->a];
-    double dx = is_stage ? a->X : a->x0, dy = is_stage ? a->Y : a->y0, reach = a->body->radius;
+    double           dx = is_stage ? a->X : a->x0, dy = is_stage ? a->Y : a->y0, reach = a->body->radius;
     if (p->b == FW_WALL) {
         reach += is->structure_radius;
     } else {
@@ -61,9 +61,9 @@ void fw_stage_forces_now(fw_island *is, fw_pair *p)
 {
     const fw_member *a = &is->members[p->a], *b = p->b == FW_WALL ? NULL : &is->members[p->b];
     geometry(is, p, false, &p->nx, &p->ny, &p->depth[0]);
-    p->rate[0]     = closing(p, a->v0, b ? b->v0 : NULL);
-    p->slip[0]     = slipping(p, a->v0, b ? b->v0 : NULL, a->body->radius, b ? b->body->radius : 0);
-    p->normal[0]   = fw_contact_normal(&p->law, p->depth[0], p->rate[0]);
+    p->rate[0] = closing(p, a->v0, b ? b->v0 : NULL);
+    p->slip[0] = slipping(p, a->v0, b ? b->v0 : NULL, a->body->radius, b ? b->body->radius : 0);
+    p->normal[0] = fw_contact_normal(&p->law, p->depth[0], p->rate[0]);
     p->friction[0] = fw_contact_friction(&p->law, p->normal[0], p->slip[0]);
     p->dir[0][0] = p->nx, p->dir[0][1] = p->ny;
 }
@@ -73,7 +73,7 @@ void fw_stage_start(fw_island *is)
     const fw_setup *set = is->setup;
     for (size_t i = 0; i < is->n_held; i++) {
         fw_member *m = &is->members[is->held[i]];
-        double k      = m->body->drag * m->body->inv_mass * relative_speed(set, m->v0);
+        double     k = m->body->drag * m->body->inv_mass * relative_speed(set, m->v0);
         m->drag[0][0] = k * (set->speed - m->v0[0]), m->drag[0][1] = -k * m->v0[1];
         m->a[0][0] = m->drag[0][0], m->a[0][1] = m->drag[0][1], m->a[0][2] = 0;
         for (int q = 0; q < 3; q++) m->v[0][q] = m->v0[q];
@@ -97,12 +97,12 @@ static void free_velocity(const fw_setup *set, fw_member *m, double hg, double s
 {
     m->drag_rate = m->body->drag * m->body->inv_mass * speed;
     m->resistance = 1 + hg * m->drag_rate;
-    double f      = 1 / m->resistance;
-    m->V[0]      = (m->vr[0] + hg * m->drag_rate * set->speed) * f;
-    m->V[1]      = m->vr[1] * f;
-    m->V[2]      = m->vr[2];
-    m->ease      = f;
-    m->inv_mass  = m->body->inv_mass * f;
+    double f = 1 / m->resistance;
+    m->V[0] = (m->vr[0] + hg * m->drag_rate * set->speed) * f;
+    m->V[1] = m->vr[1] * f;
+    m->V[2] = m->vr[2];
+    m->ease = f;
+    m->inv_mass = m->body->inv_mass * f;
 }
 
 static void predict(fw_island *is, const fw_method *me, size_t s, double h)
@@ -110,7 +110,7 @@ static void predict(fw_island *is, const fw_method *me, size_t s, double h)
     double hg = h * me->gamma;
     for (size_t i = 0; i < is->n_held; i++) {
         fw_member *m = &is->members[is->held[i]];
-        double x = m->x0, y = m->y0, v[3] = {m->v0[0], m->v0[1], m->v0[2]};
+        double     x = m->x0, y = m->y0, v[3] = {m->v0[0], m->v0[1], m->v0[2]};
         for (size_t j = 0; j < s; j++) {
             double ha = h * me->a[s][j];
             x += ha * m->v[j][0], y += ha * m->v[j][1];
@@ -120,7 +120,7 @@ static void predict(fw_island *is, const fw_method *me, size_t s, double h)
         double ahead = (me->c[s] - me->c[s - 1]) * h;
         for (int q = 0; q < 3; q++) {
             m->vr[q] = v[q];
-            m->U[q]  = m->v[s - 1][q] + ahead * m->a[s - 1][q];
+            m->U[q] = m->v[s - 1][q] + ahead * m->a[s - 1][q];
         }
         m->X = x + hg * m->U[0], m->Y = y + hg * m->U[1];
         free_velocity(is->setup, m, hg, relative_speed(is->setup, m->U));
@@ -131,20 +131,20 @@ static void predict(fw_island *is, const fw_method *me, size_t s, double h)
 static void prepare(fw_pair *p, double hg)
 {
     p->to_push = hg / (1 + p->beta * hg * p->w_normal);
-    p->to_rub  = -hg * p->law.ct / (1 + p->law.ct * hg * p->w_slip);
+    p->to_rub = -hg * p->law.ct / (1 + p->law.ct * hg * p->w_slip);
 }
 
 static void linearise(fw_island *is, size_t s, double hg)
 {
     for (size_t k = 0; k < is->n_closed; k++) {
-        fw_pair *p = &is->pairs[is->closed[k]];
+        fw_pair   *p = &is->pairs[is->closed[k]];
         fw_member *a = &is->members[p->a], *b = p->b == FW_WALL ? NULL : &is->members[p->b];
         geometry(is, p, true, &p->nx, &p->ny, &p->depth_star);
         p->rate_star = closing(p, a->U, b ? b->U : NULL);
-        p->alpha     = p->law.k * (p->depth_star - hg * p->rate_star);
-        p->beta      = p->law.c + p->law.k * hg;
-        p->w_normal  = a->inv_mass + (b ? b->inv_mass : 0);
-        p->w_slip    = p->w_normal + a->body->radius * a->body->radius * a->body->inv_inertia +
+        p->alpha = p->law.k * (p->depth_star - hg * p->rate_star);
+        p->beta = p->law.c + p->law.k * hg;
+        p->w_normal = a->inv_mass + (b ? b->inv_mass : 0);
+        p->w_slip = p->w_normal + a->body->radius * a->body->radius * a->body->inv_inertia +
                     (b ? b->body->radius * b->body->radius * b->body->inv_inertia : 0);
         prepare(p, hg);
         /* Start from the force of the stage before. */
@@ -159,17 +159,18 @@ static double sweep(fw_island *is)
 {
     double largest = 0;
     for (size_t k = 0; k < is->n_closed; k++) {
-        fw_pair *p = &is->pairs[is->closed[k]];
+        fw_pair   *p = &is->pairs[is->closed[k]];
         fw_member *a = &is->members[p->a], *b = p->b == FW_WALL ? NULL : &is->members[p->b];
-        double free = closing(p, a->V, b ? b->V : NULL) + p->push * p->w_normal;
-        double push = (p->alpha + p->beta * free) * p->to_push;
+        double     free = closing(p, a->V, b ? b->V : NULL) + p->push * p->w_normal;
+        double     push = (p->alpha + p->beta * free) * p->to_push;
         if (!(push > 0)) push = 0;
-        double rub  = 0;
+        double rub = 0;
         if (p->law.mu > 0) {
-            double slip = slipping(p, a->V, b ? b->V : NULL, a->body->radius, b ? b->body->radius : 0) - p->rub * p->w_slip;
-            double cap  = p->law.mu * push;
-            rub         = slip * p->to_rub;
-            rub         = rub > cap ? cap : rub < -cap ? -cap : rub;
+            double slip = slipping(p, a->V, b ? b->V : NULL, a->body->radius, b ? b->body->radius : 0) -
+                          p->rub * p->w_slip;
+            double cap = p->law.mu * push;
+            rub = slip * p->to_rub;
+            rub = rub > cap ? cap : rub < -cap ? -cap : rub;
         }
         double dp = push - p->push, dr = rub - p->rub;
         shove(p, a, b, dp, dr);
@@ -187,17 +188,18 @@ static double renew_drag(fw_island *is, double hg)
         fw_member *m = &is->members[is->held[i]];
         if (!(m->body->drag > 0)) continue;
         double speed = relative_speed(is->setup, m->V);
-        double jx = m->V[0] * m->resistance - (m->vr[0] + hg * m->drag_rate * is->setup->speed), jy = m->V[1] * m->resistance - m->vr[1];
+        double jx = m->V[0] * m->resistance - (m->vr[0] + hg * m->drag_rate * is->setup->speed),
+               jy = m->V[1] * m->resistance - m->vr[1];
         double old_x = m->V[0], old_y = m->V[1], spin = m->V[2];
         free_velocity(is->setup, m, hg, speed);
         m->V[0] += jx * m->ease, m->V[1] += jy * m->ease, m->V[2] = spin;
         largest = fw_larger(largest, fw_larger(fabs(m->V[0] - old_x), fabs(m->V[1] - old_y)));
     }
     for (size_t k = 0; k < is->n_closed; k++) {
-        fw_pair *p = &is->pairs[is->closed[k]];
+        fw_pair         *p = &is->pairs[is->closed[k]];
         const fw_member *a = &is->members[p->a], *b = p->b == FW_WALL ? NULL : &is->members[p->b];
-        double was   = p->w_normal;
-        p->w_normal  = a->inv_mass + (b ? b->inv_mass : 0);
+        double           was = p->w_normal;
+        p->w_normal = a->inv_mass + (b ? b->inv_mass : 0);
         p->w_slip += p->w_normal - was;
         prepare(p, hg);
     }
@@ -207,8 +209,8 @@ static double renew_drag(fw_island *is, double hg)
 void fw_stage_solve(fw_island *is, size_t s, double h)
 {
     const fw_setup  *set = is->setup;
-    const fw_method *me  = set->method;
-    double           hg  = h * me->gamma;
+    const fw_method *me = set->method;
+    double           hg = h * me->gamma;
     double           enough = 1e-3 * set->tolerance * set->velocity_scale;
     predict(is, me, s, h);
     linearise(is, s, hg);
@@ -229,13 +231,13 @@ void fw_stage_solve(fw_island *is, size_t s, double h)
         m->drag[s][0] = m->drag_rate * (set->speed - m->V[0]), m->drag[s][1] = -m->drag_rate * m->V[1];
     }
     for (size_t k = 0; k < is->n_closed; k++) {
-        fw_pair *p = &is->pairs[is->closed[k]];
+        fw_pair         *p = &is->pairs[is->closed[k]];
         const fw_member *a = &is->members[p->a], *b = p->b == FW_WALL ? NULL : &is->members[p->b];
-        p->normal[s]   = p->push / hg;
+        p->normal[s] = p->push / hg;
         p->friction[s] = p->rub / hg;
-        p->rate[s]     = closing(p, a->V, b ? b->V : NULL);
-        p->slip[s]     = slipping(p, a->V, b ? b->V : NULL, a->body->radius, b ? b->body->radius : 0);
-        p->depth[s]    = p->depth_star + hg * (p->rate[s] - p->rate_star);
+        p->rate[s] = closing(p, a->V, b ? b->V : NULL);
+        p->slip[s] = slipping(p, a->V, b ? b->V : NULL, a->body->radius, b ? b->body->radius : 0);
+        p->depth[s] = p->depth_star + hg * (p->rate[s] - p->rate_star);
         p->dir[s][0] = p->nx, p->dir[s][1] = p->ny;
     }
 }

@@ -20,15 +20,15 @@ void fw_touch_fly(const fw_setup *setup, const fw_member *m, double dt, double *
     }
     fw_drag_flow f = fw_drag_free(m->body->drag * m->body->inv_mass, r, dt);
     double       d = f.distance / r, s = f.speed / r;
-    *x   = m->x0 + setup->speed * dt + rx * d, *y = m->y0 + ry * d;
+    *x = m->x0 + setup->speed * dt + rx * d, *y = m->y0 + ry * d;
     v[0] = setup->speed + rx * s, v[1] = ry * s;
 }
 
 static void gap_of(double dx, double dy, double ux, double uy, double reach, double *gap, double *rate)
 {
     double r2 = dx * dx + dy * dy, r = sqrt(r2);
-    *gap      = (r2 - reach * reach) / (r + reach);
-    *rate     = r > 0 ? -(dx * ux + dy * uy) / r : 0;
+    *gap = (r2 - reach * reach) / (r + reach);
+    *rate = r > 0 ? -(dx * ux + dy * uy) / r : 0;
 }
 
 void fw_touch_gap(const fw_island *is, const fw_pair *p, bool at_end, double *gap, double *rate)
@@ -39,7 +39,7 @@ void fw_touch_gap(const fw_island *is, const fw_pair *p, bool at_end, double *ga
     if (p->b == FW_WALL) {
         reach += is->structure_radius;
     } else {
-        const fw_member *b  = &is->members[p->b];
+        const fw_member *b = &is->members[p->b];
         const double    *vb = at_end ? b->v1 : b->v0;
         dx -= at_end ? b->x1 : b->x0, dy -= at_end ? b->y1 : b->y0;
         ux -= vb[0], uy -= vb[1];
@@ -60,16 +60,20 @@ double fw_touch_root(double gap0, double rate0, double gap1, double rate1, doubl
         double lo = 0;
         for (int n = 0; n < 60 && hi - lo > 1e-12; n++) { /* the slope's root */
             double u = 0.5 * (lo + hi);
-            if (s0 + u * (2 * c2 + 3 * c3 * u) < 0) lo = u;
-            else hi = u;
+            if (s0 + u * (2 * c2 + 3 * c3 * u) < 0)
+                lo = u;
+            else
+                hi = u;
         }
         if (gap0 + hi * (s0 + hi * (c2 + c3 * hi)) > 0) return INFINITY;
     }
     double lo = 0;
     for (int n = 0; n < 100 && hi - lo > 1e-15; n++) {
         double u = 0.5 * (lo + hi);
-        if (gap0 + u * (s0 + u * (c2 + c3 * u)) > 0) lo = u;
-        else hi = u;
+        if (gap0 + u * (s0 + u * (c2 + c3 * u)) > 0)
+            lo = u;
+        else
+            hi = u;
     }
     return hi * h;
 }
@@ -87,7 +91,7 @@ double fw_touch_free(const fw_island *is, const fw_pair *p, double dt)
     /* Speeds relative to the water only fall, so the gap closes no faster than bound: wide gaps are skipped by it. In
      * the last tenth of reach the ways are nearly straight and the cubic finds the touch, Newton on the exact flight
      * locates it. (Skipping alone needs hundreds of looks at two floes that drift side by side and close slowly.) */
-    const fw_member *a     = &is->members[p->a];
+    const fw_member *a = &is->members[p->a];
     double           bound = fw_length(a->v0[0] - is->setup->speed, a->v0[1]), reach = a->body->radius;
     if (p->b == FW_WALL) {
         bound += is->setup->speed;

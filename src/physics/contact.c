@@ -5,10 +5,10 @@
 fw_contact_constants fw_contact_law_apply(const fw_contact_law *law, double m_eff)
 {
     fw_contact_constants c;
-    c.k     = law->stiffness;
-    c.c     = law->damping_ratio * 2 * sqrt(law->stiffness * m_eff);
-    c.ct    = law->slip_damping_ratio * c.c;
-    c.mu    = law->friction;
+    c.k = law->stiffness;
+    c.c = law->damping_ratio * 2 * sqrt(law->stiffness * m_eff);
+    c.ct = law->slip_damping_ratio * c.c;
+    c.mu = law->friction;
     c.omega = sqrt(law->stiffness / m_eff);
     return c;
 }

@@ -9,7 +9,7 @@ double fw_drag_coefficient(double water_density, double form_drag, double diamet
 
 fw_drag_flow fw_drag_free(double K, double r0, double t)
 {
-    double a = K * r0 * t;
+    double       a = K * r0 * t;
     fw_drag_flow f;
     f.speed = r0 / (1 + a);
     /* log1p(a)/K loses its digits as a -> 0 only through the division by K; the series is exact to 1e-17 there. */

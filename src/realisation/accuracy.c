@@ -27,29 +27,29 @@ void fw_accuracy_setup(fw_setup *s, const fw_model *m, double speed, double velo
     size_t r = 0;
     while (r + 2 < N_ROWS && m->accuracy < TABLE[r + 1].accuracy) r++;
     double f = log(m->accuracy / TABLE[r].accuracy) / log(TABLE[r + 1].accuracy / TABLE[r].accuracy);
-    f        = fmin(1, fmax(0, f));
+    f = fmin(1, fmax(0, f));
     bool has_friction = (m->effects & FW_EFFECT_FRICTION) != 0, has_drag = (m->effects & FW_EFFECT_FORM_DRAG) != 0;
     *s = (fw_setup){
         .structure_radius = m->structure_radius,
-        .speed            = speed,
+        .speed = speed,
         .contact = {m->stiffness, m->damping_ratio, has_friction ? m->friction : 0, m->slip_damping_ratio},
         .has_floe_contact = (m->effects & FW_EFFECT_FLOE_CONTACT) != 0,
-        .has_drag         = has_drag,
-        .has_rotation     = (m->effects & FW_EFFECT_ROTATION) != 0,
-        .has_friction     = has_friction,
-        .ice_density      = m->ice_density,
-        .drag_per_area    = has_drag ? 0.5 * m->water_density * m->form_drag : 0,
-        .method           = m->accuracy < ARK3_BELOW ? FW_METHOD_ARK3 : FW_METHOD_TRBDF2,
-        .tolerance        = blend(TABLE[r].tolerance, TABLE[r + 1].tolerance, f),
-        .velocity_scale   = velocity_scale,
-        .first_step       = blend(TABLE[r].first_step, TABLE[r + 1].first_step, f),
-        .growth           = blend(TABLE[r].growth, TABLE[r + 1].growth, f),
-        .max_step         = INFINITY,
-        .macro_length     = 0.2,
-        .skin             = 2.0,
-        .half_width       = 0.5 * fw_accuracy_strip_width(m),
-        .downstream       = fw_accuracy_downstream(m),
-        .max_evaluations  = INFINITY,
+        .has_drag = has_drag,
+        .has_rotation = (m->effects & FW_EFFECT_ROTATION) != 0,
+        .has_friction = has_friction,
+        .ice_density = m->ice_density,
+        .drag_per_area = has_drag ? 0.5 * m->water_density * m->form_drag : 0,
+        .method = m->accuracy < ARK3_BELOW ? FW_METHOD_ARK3 : FW_METHOD_TRBDF2,
+        .tolerance = blend(TABLE[r].tolerance, TABLE[r + 1].tolerance, f),
+        .velocity_scale = velocity_scale,
+        .first_step = blend(TABLE[r].first_step, TABLE[r + 1].first_step, f),
+        .growth = blend(TABLE[r].growth, TABLE[r + 1].growth, f),
+        .max_step = INFINITY,
+        .macro_length = 0.2,
+        .skin = 2.0,
+        .half_width = 0.5 * fw_accuracy_strip_width(m),
+        .downstream = fw_accuracy_downstream(m),
+        .max_evaluations = INFINITY,
     };
 }
 
@@ -71,9 +71,13 @@ size_t fw_accuracy_lines(const fw_model *m, double speed, fw_accuracy_line *line
         {"method_order", "1", "order of the integrator (2: TR-BDF2, 3: ARK3)", s.method->order},
         {"macro_step", "s", "0.2 m of the current's way: islands are found anew", s.macro_length / speed},
         {"ring_arcs", "1", "arcs round the structure (ring.arcs)", (double)m->n_arcs},
-        {"strip_width", "m", m->strip_width > 0 ? "field.strip_width" : "auto: 60 m of 100 m change the load at 40 % by -0.3 %", fw_accuracy_strip_width(m)},
-        {"downstream", "m", m->downstream > 0 ? "field.downstream" : "auto: floes may be forgotten 11-20 m downstream", fw_accuracy_downstream(m)},
-        {"warm_up", "s", m->warm_up >= 0 ? "exposure.warm_up" : "auto: 120 m of the current's way", fw_accuracy_warm_up(m, speed)},
+        {"strip_width", "m",
+         m->strip_width > 0 ? "field.strip_width" : "auto: 60 m of 100 m change the load at 40 % by -0.3 %",
+         fw_accuracy_strip_width(m)},
+        {"downstream", "m", m->downstream > 0 ? "field.downstream" : "auto: floes may be forgotten 11-20 m downstream",
+         fw_accuracy_downstream(m)},
+        {"warm_up", "s", m->warm_up >= 0 ? "exposure.warm_up" : "auto: 120 m of the current's way",
+         fw_accuracy_warm_up(m, speed)},
     };
     size_t n = sizeof all / sizeof all[0] < capacity ? sizeof all / sizeof all[0] : capacity;
     for (size_t i = 0; i < n; i++) lines[i] = all[i];

@@ -10,29 +10,29 @@
 void fw_model_defaults(fw_model *m)
 {
     *m = (fw_model){
-        .structure_radius = 3.7,  /* Raahe lighthouse, 7.4 m: source paper, table 1 */
-        .ice_density      = 900,
-        .water_density    = 1025,
-        .form_drag        = 10,   /* source paper, table 2; on D h: this project's reading */
-        .stiffness        = 2e6,  /* source paper, table 2 */
-        .damping_ratio    = 1,    /* "critical damping coefficient" */
-        .friction         = 0.1,  /* source paper, table 1 */
+        .structure_radius = 3.7, /* Raahe lighthouse, 7.4 m: source paper, table 1 */
+        .ice_density = 900,
+        .water_density = 1025,
+        .form_drag = 10,    /* source paper, table 2; on D h: this project's reading */
+        .stiffness = 2e6,   /* source paper, table 2 */
+        .damping_ratio = 1, /* "critical damping coefficient" */
+        .friction = 0.1,    /* source paper, table 1 */
         .slip_damping_ratio = 1,
-        .effects          = FW_EFFECTS_CORE,
-        .n_laws           = 1,
-        .n_mixes          = 1,
-        .size_law         = FW_SIZE_UNIFORM,
-        .window           = 3 * 3600,
-        .warm_up          = -1,
-        .accuracy         = 0.01,
-        .n_arcs           = 360,
-        .strip_width      = -1,
-        .downstream       = -1,
+        .effects = FW_EFFECTS_CORE,
+        .n_laws = 1,
+        .n_mixes = 1,
+        .size_law = FW_SIZE_UNIFORM,
+        .window = 3 * 3600,
+        .warm_up = -1,
+        .accuracy = 0.01,
+        .n_arcs = 360,
+        .strip_width = -1,
+        .downstream = -1,
     };
-    m->laws[0]              = *fw_abrasion_find("bekker2011");
-    fw_thickness_mix *x     = &m->mixes[0];
-    x->probability          = 1;
-    x->n_classes            = 5;
+    m->laws[0] = *fw_abrasion_find("bekker2011");
+    fw_thickness_mix *x = &m->mixes[0];
+    x->probability = 1;
+    x->n_classes = 5;
     static const double H[] = {0.5, 0.7, 0.9, 1.1, 1.3}; /* source paper: one fifth each */
     for (size_t i = 0; i < 5; i++) x->classes[i] = (fw_thickness_class){H[i], 0.2};
 }
@@ -53,19 +53,22 @@ fw_status fw_model_check(const fw_model *m, fw_msg *msg)
     NEED(m->n_laws >= 1 && m->n_laws <= FW_MAX_LAWS, "%zu abrasion laws: wanted 1 to %d", m->n_laws, (int)FW_MAX_LAWS);
     for (size_t i = 0; i < m->n_laws; i++)
         NEED(m->laws[i].exponent > 0 && m->laws[i].exponent < 2,
-             "abrasion law %s: exponent %g: wanted 0 < m < 2 (from 2 on the load of a touch diverges without a crushing limit)",
+             "abrasion law %s: exponent %g: wanted 0 < m < 2 (from 2 on the load of a touch diverges without a "
+             "crushing limit)",
              m->laws[i].name, m->laws[i].exponent);
     NEED(is_in(m->window, 1e-3, 1e9), "window %g s: wanted 1e-3 to 1e9 s", m->window);
     NEED(is_in(m->accuracy, 1e-4, 0.1), "accuracy %g: wanted 0.01 %% to 10 %%", m->accuracy);
     NEED(m->n_arcs >= 72 && m->n_arcs <= 3600, "ring of %zu arcs: wanted 72 to 3600", m->n_arcs);
-    NEED(m->n_mixes >= 1 && m->n_mixes <= FW_MAX_MIXES, "%zu thickness mixes: wanted 1 to %d", m->n_mixes, (int)FW_MAX_MIXES);
+    NEED(m->n_mixes >= 1 && m->n_mixes <= FW_MAX_MIXES, "%zu thickness mixes: wanted 1 to %d", m->n_mixes,
+         (int)FW_MAX_MIXES);
     for (size_t i = 0; i < m->n_mixes; i++) {
         const fw_thickness_mix *x = &m->mixes[i];
-        NEED(x->n_classes >= 1 && x->n_classes <= FW_MAX_CLASSES, "thickness mix %zu has %zu classes: wanted 1 to %d", i + 1,
-             x->n_classes, (int)FW_MAX_CLASSES);
+        NEED(x->n_classes >= 1 && x->n_classes <= FW_MAX_CLASSES, "thickness mix %zu has %zu classes: wanted 1 to %d",
+             i + 1, x->n_classes, (int)FW_MAX_CLASSES);
         for (size_t k = 0; k < x->n_classes; k++)
-            NEED(fw_unbreakable_class_exists(x->classes[k].thickness), "thickness %g m: wanted %g to %g m (4h <= sqrt(130h - 11))",
-                 x->classes[k].thickness, FW_THICKNESS_MIN, FW_THICKNESS_MAX);
+            NEED(fw_unbreakable_class_exists(x->classes[k].thickness),
+                 "thickness %g m: wanted %g to %g m (4h <= sqrt(130h - 11))", x->classes[k].thickness, FW_THICKNESS_MIN,
+                 FW_THICKNESS_MAX);
     }
     return FW_OK;
 }

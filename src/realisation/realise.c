@@ -65,8 +65,9 @@ static double needs_ice_from(const run *r)
 static fw_status feed(run *r, fw_msg *m)
 {
     double L = fw_field_tile_length(r->field), from = needs_ice_from(r);
-    FW_CHECK(from > -MAX_REACH, m, FW_E_NUMERIC, "the pile of disturbed floes reaches %.0f m upstream at t = %.6g s: more than %.0f m",
-             -from, r->world->t, MAX_REACH);
+    FW_CHECK(from > -MAX_REACH, m, FW_E_NUMERIC,
+             "the pile of disturbed floes reaches %.0f m upstream at t = %.6g s: more than %.0f m", -from, r->world->t,
+             MAX_REACH);
     /* A floe of the next column may stick out over the tile's border by its radius: one radius more is in `from`. */
     while ((double)(r->next_column + 1) * L + r->world->drift > from) {
         FW_TRY(add_column(r, r->next_column, false, m));
@@ -79,21 +80,28 @@ static fw_status feed(run *r, fw_msg *m)
 
 static fw_status lay(run *r, const fw_scenario *sc, fw_msg *m)
 {
-    fw_field_settings f = {.seed = sc->seed, .id = sc->id, .concentration = sc->concentration, .mix = &r->model->mixes[sc->mix],
-                           .size_law = r->model->size_law, .size_a = r->model->size_a, .size_b = r->model->size_b};
+    fw_field_settings f = {.seed = sc->seed,
+                           .id = sc->id,
+                           .concentration = sc->concentration,
+                           .mix = &r->model->mixes[sc->mix],
+                           .size_law = r->model->size_law,
+                           .size_a = r->model->size_a,
+                           .size_b = r->model->size_b};
     FW_TRY(fw_field_create(&r->field, &f, m));
     double L = fw_field_tile_length(r->field), reach = r->setup.half_width;
-    r->row1  = (int64_t)ceil(reach / L - 0.5 - 1e-9);
+    r->row1 = (int64_t)ceil(reach / L - 0.5 - 1e-9);
     if (r->row1 < 0) r->row1 = 0;
     r->row0 = -r->row1;
     FW_TRY(fw_world_create(&r->world, r->model->structure_radius, m));
-    if (r->model->plain_step > 0) FW_TRY(fw_plain_create(&r->plain, &r->setup, r->model->plain_step, PLAIN_INLET, m));
-    else FW_TRY(fw_kernel_create(&r->kernel, &r->setup, m));
+    if (r->model->plain_step > 0)
+        FW_TRY(fw_plain_create(&r->plain, &r->setup, r->model->plain_step, PLAIN_INLET, m));
+    else
+        FW_TRY(fw_kernel_create(&r->kernel, &r->setup, m));
     r->world->max_radius = fw_field_max_radius(r->field);
     /* At the start the origin lies in the middle of column 0; the ice downstream belongs to columns 0 and 1. */
     r->world->drift = -0.5 * L;
-    int64_t last    = (int64_t)floor((r->setup.downstream + r->world->max_radius - r->world->drift) / L);
-    double  from    = needs_ice_from(r);
+    int64_t last = (int64_t)floor((r->setup.downstream + r->world->max_radius - r->world->drift) / L);
+    double  from = needs_ice_from(r);
     for (r->next_column = last; (double)(r->next_column + 1) * L + r->world->drift > from; r->next_column--)
         FW_TRY(add_column(r, r->next_column, true, m));
     return FW_OK;
@@ -105,11 +113,13 @@ static fw_status go(run *r, double t_end, double t_all, const fw_tick *tick, fw_
     double    told = w->ledger.force_evaluations;
     for (size_t quiet = 1; w->t < t_end; quiet++) {
         FW_TRY(feed(r, m));
-        if (r->plain) FW_TRY(fw_plain_step(r->plain, w, &r->wear, t_end, m));
-        else FW_TRY(fw_kernel_step(r->kernel, w, &r->wear, t_end, m));
+        if (r->plain)
+            FW_TRY(fw_plain_step(r->plain, w, &r->wear, t_end, m));
+        else
+            FW_TRY(fw_kernel_step(r->kernel, w, &r->wear, t_end, m));
         /* Some milliseconds of work: a macro-step takes from a microsecond to as many milliseconds in a jam. */
         if (tick && (quiet % 64 == 0 || w->ledger.force_evaluations - told > 2e4)) {
-            told     = w->ledger.force_evaluations;
+            told = w->ledger.force_evaluations;
             *stopped = tick->call(tick->self, w->t / t_all);
             if (*stopped != FW_OK) return *stopped;
         }
@@ -119,16 +129,16 @@ static fw_status go(run *r, double t_end, double t_all, const fw_tick *tick, fw_
 
 static void describe(fw_record *rec, const run *r, const fw_scenario *sc, double warm_up)
 {
-    rec->id            = sc->id;
+    rec->id = sc->id;
     rec->concentration = sc->concentration;
-    rec->speed         = sc->speed;
-    rec->mix           = sc->mix;
-    rec->cell          = sc->cell;
-    rec->window        = r->model->window;
-    rec->warm_up       = warm_up;
+    rec->speed = sc->speed;
+    rec->mix = sc->mix;
+    rec->cell = sc->cell;
+    rec->window = r->model->window;
+    rec->warm_up = warm_up;
     if (!r->field) return;
     fw_field_census c = fw_field_count(r->field);
-    rec->floes_made   = (double)c.n_floes;
+    rec->floes_made = (double)c.n_floes;
     if (c.tile_area > 0) rec->concentration_achieved = c.ice_area / c.tile_area;
     if (c.n_floes > 0) rec->mean_diameter = c.sum_diameter / (double)c.n_floes;
 }
@@ -143,8 +153,8 @@ fw_status fw_realise(const fw_model *model, const fw_scenario *sc, const fw_tick
     FW_CHECK(sc->mix < model->n_mixes, m, FW_E_ARG, "thickness mix %u of %zu", sc->mix, model->n_mixes);
     FW_TRY(fw_record_init(out, model->n_arcs, model->n_laws, m));
 
-    double    cpu = fw_outcome_cpu_now(), warm_up = fw_accuracy_warm_up(model, sc->speed), t_all = warm_up + model->window;
-    run       r       = {.model = model};
+    double cpu = fw_outcome_cpu_now(), warm_up = fw_accuracy_warm_up(model, sc->speed), t_all = warm_up + model->window;
+    run    r = {.model = model};
     fw_status stopped = FW_OK;
     fw_accuracy_setup(&r.setup, model, sc->speed, sc->speed);
     fw_status s = fw_wear_init(&r.wear, model->structure_radius, model->n_arcs, model->n_laws, model->laws, m);
@@ -164,15 +174,17 @@ fw_status fw_realise(const fw_model *model, const fw_scenario *sc, const fw_tick
     bool is_failure = stopped == FW_OK && (s == FW_E_NUMERIC || s == FW_E_LIMIT);
     if (s == FW_OK || is_failure) {
         describe(out, &r, sc, warm_up);
-        if (s == FW_OK) fw_outcome_fill(out, r.world, &r.wear, model->window);
-        else if (r.world) out->force_evaluations = r.world->ledger.force_evaluations, out->steps = r.world->ledger.steps;
+        if (s == FW_OK)
+            fw_outcome_fill(out, r.world, &r.wear, model->window);
+        else if (r.world)
+            out->force_evaluations = r.world->ledger.force_evaluations, out->steps = r.world->ledger.steps;
         out->status = s;
         if (is_failure) {
             snprintf(out->cause, sizeof out->cause, "%.*s", (int)sizeof out->cause - 1, m->text);
             m->text[0] = 0;
         }
         out->host_cpu_s = fw_outcome_cpu_now() - cpu;
-        s               = FW_OK;
+        s = FW_OK;
     } else {
         fw_record_free(out);
     }

@@ -15,10 +15,18 @@ static fw_status add_floes(fw_world *w, const fw_scene *scene, const fw_setup *s
 {
     for (size_t i = 0; i < scene->n_floes; i++) {
         const fw_floe *f = &scene->floes[i];
-        double r = 0.5 * f->diameter, mass = scene->model.ice_density * 3.14159265358979323846 * r * r * f->thickness;
-        fw_body b = {.x = f->x, .y = f->y, .vx = f->vx, .vy = f->vy, .spin = f->spin, .radius = r, .thickness = f->thickness,
-                     .inv_mass = 1 / mass, .inv_inertia = s->has_rotation ? 2 / (mass * r * r) : 0,
-                     .drag = s->drag_per_area * f->diameter * f->thickness, .name = i + 1};
+        double  r = 0.5 * f->diameter, mass = scene->model.ice_density * 3.14159265358979323846 * r * r * f->thickness;
+        fw_body b = {.x = f->x,
+                     .y = f->y,
+                     .vx = f->vx,
+                     .vy = f->vy,
+                     .spin = f->spin,
+                     .radius = r,
+                     .thickness = f->thickness,
+                     .inv_mass = 1 / mass,
+                     .inv_inertia = s->has_rotation ? 2 / (mass * r * r) : 0,
+                     .drag = s->drag_per_area * f->diameter * f->thickness,
+                     .name = i + 1};
         FW_TRY(fw_world_add_body(w, &b, m));
         /* Given floes may meet each other anywhere: none of them drifts undisturbed. */
         w->bodies[w->n_bodies - 1].is_touched = true;
@@ -30,7 +38,12 @@ static void floes_now(const fw_world *w, fw_floe *floes)
 {
     for (size_t i = 0; i < w->n_bodies; i++) {
         const fw_body *b = &w->bodies[i];
-        floes[i] = (fw_floe){.x = b->x, .y = b->y, .diameter = 2 * b->radius, .thickness = b->thickness, .vx = b->vx, .vy = b->vy,
+        floes[i] = (fw_floe){.x = b->x,
+                             .y = b->y,
+                             .diameter = 2 * b->radius,
+                             .thickness = b->thickness,
+                             .vx = b->vx,
+                             .vy = b->vy,
                              .spin = b->spin};
     }
 }
@@ -56,31 +69,36 @@ static fw_status simulate(fw_kernel *k, fw_world *w, fw_wear *wear, double durat
     }
 }
 
-fw_status fw_scene_run(const fw_scene *scene, const fw_tick *tick, const fw_frame_sink *frames, fw_scene_result *out, fw_msg *m)
+fw_status fw_scene_run(const fw_scene *scene, const fw_tick *tick, const fw_frame_sink *frames, fw_scene_result *out,
+                       fw_msg *m)
 {
     memset(out, 0, sizeof *out);
     FW_TRY(fw_model_check(&scene->model, m));
-    FW_CHECK(scene->duration > 0 && isfinite(scene->duration), m, FW_E_ARG, "duration %g s: wanted more than 0", scene->duration);
+    FW_CHECK(scene->duration > 0 && isfinite(scene->duration), m, FW_E_ARG, "duration %g s: wanted more than 0",
+             scene->duration);
     FW_CHECK(!frames || frames->interval > 0, m, FW_E_ARG, "frame interval must be positive");
     double fastest = fabs(scene->speed);
     for (size_t i = 0; i < scene->n_floes; i++) {
         const fw_floe *f = &scene->floes[i];
-        FW_CHECK(isfinite(f->x) && isfinite(f->y) && isfinite(f->vx) && isfinite(f->vy) && isfinite(f->spin) && f->diameter > 0 &&
-                     f->thickness > 0, m, FW_E_ARG, "floe %zu: a value is not finite or not positive", i + 1);
+        FW_CHECK(isfinite(f->x) && isfinite(f->y) && isfinite(f->vx) && isfinite(f->vy) && isfinite(f->spin) &&
+                     f->diameter > 0 && f->thickness > 0,
+                 m, FW_E_ARG, "floe %zu: a value is not finite or not positive", i + 1);
         fastest = fmax(fastest, hypot(f->vx, f->vy));
     }
     if (!(fastest > 0)) fastest = 1e-3; /* nothing moves: any scale will do */
 
     fw_setup   setup;
-    fw_kernel *k    = NULL;
-    fw_world  *w    = NULL;
+    fw_kernel *k = NULL;
+    fw_world  *w = NULL;
     fw_wear    wear = {0};
     fw_accuracy_setup(&setup, &scene->model, scene->speed, fastest);
     setup.half_width = setup.downstream = INFINITY; /* no untouched ice, and nobody is forgotten */
     double    cpu = fw_outcome_cpu_now();
-    fw_status s   = fw_record_init(&out->record, scene->model.n_arcs, scene->model.n_laws, m);
+    fw_status s = fw_record_init(&out->record, scene->model.n_arcs, scene->model.n_laws, m);
     if (s == FW_OK) s = fw_alloc(&out->floes, scene->n_floes, sizeof *out->floes, "floes", m);
-    if (s == FW_OK) s = fw_wear_init(&wear, scene->model.structure_radius, scene->model.n_arcs, scene->model.n_laws, scene->model.laws, m);
+    if (s == FW_OK)
+        s = fw_wear_init(&wear, scene->model.structure_radius, scene->model.n_arcs, scene->model.n_laws,
+                         scene->model.laws, m);
     if (s == FW_OK) s = fw_world_create(&w, scene->model.structure_radius, m);
     if (s == FW_OK) s = fw_kernel_create(&k, &setup, m);
     if (s == FW_OK) s = add_floes(w, scene, &setup, m);
@@ -92,19 +110,20 @@ fw_status fw_scene_run(const fw_scene *scene, const fw_tick *tick, const fw_fram
     if (s == FW_OK || s == FW_E_NUMERIC || s == FW_E_LIMIT) {
         /* A failed scene still shows where it came to. */
         fw_record *r = &out->record;
-        r->status    = s;
+        r->status = s;
         if (m && s != FW_OK) snprintf(r->cause, sizeof r->cause, "%.*s", (int)sizeof r->cause - 1, m->text);
         r->speed = scene->speed;
         fw_outcome_fill(r, w, &wear, scene->duration);
         r->host_cpu_s = fw_outcome_cpu_now() - cpu;
         const fw_wear_sums *sum = &wear.sums[0];
-        double rate = fw_abrasion_rate(&scene->model.laws[0], scene->temperature), edge = pow(1e-6, wear.exponent[0]) * 1e-3 * rate;
-        out->path                = sum->path;
+        double              rate = fw_abrasion_rate(&scene->model.laws[0], scene->temperature),
+               edge = pow(1e-6, wear.exponent[0]) * 1e-3 * rate;
+        out->path = sum->path;
         out->depth_along_contact = sum->along * edge;
-        out->depth_x_wall        = sum->x_wall * edge;
-        out->depth_impact        = sum->impact * edge;
-        out->max_overlap         = w->ledger.max_overlap;
-        out->n_floes             = w->n_bodies;
+        out->depth_x_wall = sum->x_wall * edge;
+        out->depth_impact = sum->impact * edge;
+        out->max_overlap = w->ledger.max_overlap;
+        out->n_floes = w->n_bodies;
         floes_now(w, out->floes);
     }
     fw_kernel_destroy(k);
@@ -117,7 +136,7 @@ fw_status fw_scene_run(const fw_scene *scene, const fw_tick *tick, const fw_fram
 void fw_scene_free(fw_scene *s)
 {
     free(s->floes);
-    s->floes   = NULL;
+    s->floes = NULL;
     s->n_floes = 0;
 }
 

@@ -5,20 +5,20 @@
 
 typedef struct fw_ledger {
     /* energy [J] */
-    double kinetic_change;  /* sum over steps of the change of kinetic energy of stepped floes */
-    double impulse_work;    /* sum of impulse times mean velocity, the same thing reached from the forces */
-    double impulse_size;    /* sum of |impulse| |mean velocity|: what both are measured against */
-    double drag_work;       /* quadrature of drag power over steps, and the exact change in free flight */
-    double inflow, outflow; /* kinetic and stored energy of floes that entered or left the awake set */
+    double kinetic_change;             /* sum over steps of the change of kinetic energy of stepped floes */
+    double impulse_work;               /* sum of impulse times mean velocity, the same thing reached from the forces */
+    double impulse_size;               /* sum of |impulse| |mean velocity|: what both are measured against */
+    double drag_work;                  /* quadrature of drag power over steps, and the exact change in free flight */
+    double inflow, outflow;            /* kinetic and stored energy of floes that entered or left the awake set */
     double dashpot, friction, dropped; /* dissipated; dropped: spring energy lost where tension is refused */
     /* momentum [N s] */
-    double momentum_error;  /* sum over steps of |m dv - impulses| */
-    double momentum_size;   /* sum of |impulses| */
+    double momentum_error; /* sum over steps of |m dv - impulses| */
+    double momentum_size;  /* sum of |impulses| */
     /* structure */
-    double normal_impulse;  /* [N s] */
-    double peak_force;      /* [N] */
-    double contact_time;    /* [s] with a force */
-    double hits;            /* first touches after 1 s apart */
+    double normal_impulse; /* [N s] */
+    double peak_force;     /* [N] */
+    double contact_time;   /* [s] with a force */
+    double hits;           /* first touches after 1 s apart */
     /* range of the rigid-disc picture */
     double max_overlap;       /* [m] */
     double max_overlap_share; /* over the smaller radius */

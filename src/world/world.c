@@ -39,12 +39,12 @@ static double kinetic(const fw_body *b)
 fw_status fw_world_add_body(fw_world *w, const fw_body *proto, fw_msg *m)
 {
     FW_TRY(fw_grow(&w->bodies, &w->body_capacity, w->n_bodies + 1, sizeof *w->bodies, "awake floes", m));
-    fw_body *b  = &w->bodies[w->n_bodies++];
-    *b          = *proto;
+    fw_body *b = &w->bodies[w->n_bodies++];
+    *b = *proto;
     b->ax = b->ay = b->as = b->step = 0;
     b->t_wall = b->t_hit = -INFINITY;
-    b->n_closed          = 0;
-    b->is_touched        = false;
+    b->n_closed = 0;
+    b->is_touched = false;
     b->x_listed = b->x - w->drift, b->y_listed = b->y;
     w->max_radius = fmax(w->max_radius, b->radius);
     w->ledger.inflow += kinetic(b);
@@ -61,7 +61,7 @@ fw_status fw_world_add_block(fw_world *w, size_t n, const double *x, const doubl
     fw_status s = fw_alloc(&b->is_taken, n, sizeof *b->is_taken, "block of ice", m);
     b->y = b->x + n, b->radius = b->x + 2 * n, b->thickness = b->x + 3 * n;
     b->n = b->n_left = n;
-    b->first_name    = first_name;
+    b->first_name = first_name;
     b->x_min = INFINITY, b->x_max = -INFINITY;
     for (size_t i = 0; i < n; i++) {
         b->x[i] = x[i], b->y[i] = y[i], b->radius[i] = radius[i], b->thickness[i] = thickness[i];
@@ -83,8 +83,10 @@ void fw_world_drop_blocks_beyond(fw_world *w, double x)
 {
     size_t kept = 0;
     for (size_t i = 0; i < w->n_blocks; i++) {
-        if (w->blocks[i].n_left == 0 || w->blocks[i].x_min + w->drift > x) block_free(&w->blocks[i]);
-        else w->blocks[kept++] = w->blocks[i];
+        if (w->blocks[i].n_left == 0 || w->blocks[i].x_min + w->drift > x)
+            block_free(&w->blocks[i]);
+        else
+            w->blocks[kept++] = w->blocks[i];
     }
     if (kept != w->n_blocks) w->block_changes++;
     w->n_blocks = kept;
@@ -136,7 +138,7 @@ double fw_world_overlap(const fw_world *w, int32_t i, int32_t j)
     const fw_body *a = &w->bodies[i];
     if (j == FW_WALL) return w->structure_radius + a->radius - sqrt(a->x * a->x + a->y * a->y);
     const fw_body *b = &w->bodies[j];
-    double dx = a->x - b->x, dy = a->y - b->y;
+    double         dx = a->x - b->x, dy = a->y - b->y;
     return a->radius + b->radius - sqrt(dx * dx + dy * dy);
 }
 

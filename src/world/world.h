@@ -17,26 +17,26 @@
 enum { FW_WALL = -1 };
 
 typedef struct fw_body {
-    double   x, y, vx, vy, spin;     /* [m], [m/s], [rad/s] anticlockwise */
-    double   ax, ay, as;             /* acceleration now; kept only while a contact is closed */
-    double   radius, thickness;      /* [m] */
-    double   inv_mass, inv_inertia;  /* [1/kg], [1/(kg m2)]; inv_inertia = 0 locks rotation */
-    double   drag;                   /* 1/2 rho_w Cf D h [kg/m] */
-    double   step;                   /* sub-step that served last [s]; 0: none yet, or ax, ay, as are stale */
-    double   t_wall;                 /* last instant with the structure contact closed; -INFINITY: never */
-    double   t_hit;                  /* first touch of the present visit to the structure */
-    double   x_listed, y_listed;     /* where it was when neighbours were last listed, in the ice frame */
-    uint64_t name;                   /* for messages and for the order of sums */
-    uint32_t n_closed;               /* closed contacts */
-    bool     is_touched;             /* ever */
+    double   x, y, vx, vy, spin;    /* [m], [m/s], [rad/s] anticlockwise */
+    double   ax, ay, as;            /* acceleration now; kept only while a contact is closed */
+    double   radius, thickness;     /* [m] */
+    double   inv_mass, inv_inertia; /* [1/kg], [1/(kg m2)]; inv_inertia = 0 locks rotation */
+    double   drag;                  /* 1/2 rho_w Cf D h [kg/m] */
+    double   step;                  /* sub-step that served last [s]; 0: none yet, or ax, ay, as are stale */
+    double   t_wall;                /* last instant with the structure contact closed; -INFINITY: never */
+    double   t_hit;                 /* first touch of the present visit to the structure */
+    double   x_listed, y_listed;    /* where it was when neighbours were last listed, in the ice frame */
+    uint64_t name;                  /* for messages and for the order of sums */
+    uint32_t n_closed;              /* closed contacts */
+    bool     is_touched;            /* ever */
 } fw_body;
 
 typedef struct fw_contact {
-    int32_t              i, j;       /* i < j, or j = FW_WALL */
+    int32_t              i, j; /* i < j, or j = FW_WALL */
     fw_contact_constants law;
-    double               t_touch;    /* when it closed [s] */
-    double               depth, rate, slip, normal, friction; /* now: overlap [m], closing rate, slip [m/s], forces [N] */
-    double               nx, ny;     /* from j (or the structure) to i */
+    double               t_touch;               /* when it closed [s] */
+    double depth, rate, slip, normal, friction; /* now: overlap [m], closing rate, slip [m/s], forces [N] */
+    double nx, ny;                              /* from j (or the structure) to i */
 } fw_contact;
 
 /* Rows of ice that nothing has touched, in the ice frame. */
@@ -51,20 +51,20 @@ typedef struct fw_block {
 } fw_block;
 
 typedef struct fw_world {
-    double      t;             /* now [s] */
-    double      drift;         /* x - X of untouched ice [m] */
+    double      t;     /* now [s] */
+    double      drift; /* x - X of untouched ice [m] */
     size_t      n_bodies, body_capacity;
     fw_body    *bodies;
     size_t      n_contacts, contact_capacity;
-    fw_contact *contacts;      /* closed ones, ordered by (i, j) with the structure's contact of i last */
+    fw_contact *contacts; /* closed ones, ordered by (i, j) with the structure's contact of i last */
     size_t      n_blocks, block_capacity;
     fw_block   *blocks;
     uint64_t    block_changes; /* blocks added or dropped so far: block numbers kept from before a change are stale */
     double      structure_radius; /* [m] */
-    double      max_radius;    /* of any floe seen */
+    double      max_radius;       /* of any floe seen */
     uint64_t    n_touched;
     fw_ledger   ledger;
-    double      energy_start;  /* of the awake floes when the ledger was opened [J] */
+    double      energy_start; /* of the awake floes when the ledger was opened [J] */
 } fw_world;
 
 fw_status fw_world_create(fw_world **out, double structure_radius, fw_msg *m);
@@ -76,12 +76,13 @@ fw_status fw_world_add_body(fw_world *w, const fw_body *proto, fw_msg *m);
 /* Add n untouched floes (arrays are copied). */
 fw_status fw_world_add_block(fw_world *w, size_t n, const double *x, const double *y, const double *radius,
                              const double *thickness, uint64_t first_name, fw_msg *m);
-void      fw_world_drop_blocks_beyond(fw_world *w, double x); /* whole blocks with every floe's centre past x (kernel frame) */
+void      fw_world_drop_blocks_beyond(fw_world *w,
+                                      double    x); /* whole blocks with every floe's centre past x (kernel frame) */
 /* Forget the awake floes with is_gone[i] set: bodies and contacts close up in order; energy goes to outflow. */
 void      fw_world_forget(fw_world *w, const bool *is_gone);
 
-double fw_world_energy(const fw_world *w);   /* kinetic of awake floes plus stored in closed contacts [J] */
-void   fw_world_open_ledger(fw_world *w);    /* zero the books; the window starts here */
+double fw_world_energy(const fw_world *w); /* kinetic of awake floes plus stored in closed contacts [J] */
+void   fw_world_open_ledger(fw_world *w);  /* zero the books; the window starts here */
 
 /* Overlap of body i with body j or with the structure: positive when they overlap. */
 double fw_world_overlap(const fw_world *w, int32_t i, int32_t j);

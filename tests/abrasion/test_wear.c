@@ -8,8 +8,12 @@ static const fw_abrasion_law LAWS[] = {{"bekker2011", 0.116, 1.121, true}, {"arc
 /* Values along an interval, sampled at TR-BDF2's instants. */
 static fw_wear_interval interval(double length, double since, double radius, double thickness)
 {
-    return (fw_wear_interval){.length = length, .since_touch = since, .n_stages = 3, .at = {0, 0.58578643762690495, 1},
-                              .radius = radius, .thickness = thickness};
+    return (fw_wear_interval){.length = length,
+                              .since_touch = since,
+                              .n_stages = 3,
+                              .at = {0, 0.58578643762690495, 1},
+                              .radius = radius,
+                              .thickness = thickness};
 }
 
 /* A held contact: constant force, slip and overlap: everything by hand. */
@@ -36,7 +40,7 @@ static void steady_rubbing(void **state)
     }
     /* an arc wholly under the patch collects the patch's own load, less the chord-to-arc ratio */
     double half = asin(b / 7.4);
-    size_t k    = (size_t)(1.0 * 180 / PI);
+    size_t k = (size_t)(1.0 * 180 / PI);
     CHECK_RELATIVE(w.load[0][0][k], pow(sigma, 1.121) * path * b / (2 * 3.7 * half), 1e-12);
     CHECK_RELATIVE(w.path[k], path * b / (2 * 3.7 * half), 1e-12);
     assert_true(fw_wear_conservation(&w) < 1e-13);
@@ -48,7 +52,7 @@ static void steady_rubbing(void **state)
 static void first_touch(void **state)
 {
     (void)state;
-    double  m = 2209, om = sqrt(2e6 / m), v = 2, R = 1.25, h = 0.5, slip = 0.2, end = 1.2 / om, sum = 0, last = 0;
+    double m = 2209, om = sqrt(2e6 / m), v = 2, R = 1.25, h = 0.5, slip = 0.2, end = 1.2 / om, sum = 0, last = 0;
     for (int i = 0; i < 1000000; i++) {
         double s = (i + 0.5) * 1e-6 * sqrt(end), t = s * s, d = v * t * exp(-om * t);
         double N = m * om * v * exp(-om * t) * (2 - om * t);
@@ -87,7 +91,7 @@ static void release_inside_a_step(void **state)
     (void)state;
     fw_wear w;
     assert_int_equal(fw_wear_init(&w, 3.7, 720, 1, &LAWS[1], NULL), FW_OK);
-    w.is_open           = true;
+    w.is_open = true;
     fw_wear_interval iv = interval(0.2, 50, 2.5, 0.5);
     iv.depth[0] = iv.depth[1] = 0.01;
     for (int s = 0; s < 3; s++) iv.normal[s] = 1e5 * (1 - 4 * iv.at[s]), iv.slip[s] = 1.5;
@@ -129,7 +133,8 @@ static void conserves_and_rotates(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(steady_rubbing), cmocka_unit_test(first_touch), cmocka_unit_test(release_inside_a_step),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(steady_rubbing), cmocka_unit_test(first_touch),
+                                       cmocka_unit_test(release_inside_a_step),
                                        cmocka_unit_test(conserves_and_rotates)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,8 +7,10 @@ static double chord_by_bisection(double depth, double r1, double r2)
     double D = r1 + r2 - depth, lo = 0, hi = 3.14159265358979323846;
     for (int i = 0; i < 200; i++) { /* point (r1 cos a, r1 sin a) on circle 1; inside circle 2 for small a */
         double a = 0.5 * (lo + hi), x = r1 * cos(a) - D, y = r1 * sin(a);
-        if (x * x + y * y < r2 * r2) lo = a;
-        else hi = a;
+        if (x * x + y * y < r2 * r2)
+            lo = a;
+        else
+            hi = a;
     }
     return 2 * r1 * sin(lo);
 }
@@ -40,7 +42,7 @@ static void ugly_depths(void **state)
     assert_true(fw_lens_chord(0, 1, 2) == 0);
     assert_true(fw_lens_chord(-1, 1, 2) == 0);
     assert_true(fw_lens_chord(NAN, 1, 2) == 0);
-    assert_true(fw_lens_chord(1.9, 1, 2) == 2);  /* the small disc is nearly swallowed: its diameter */
+    assert_true(fw_lens_chord(1.9, 1, 2) == 2); /* the small disc is nearly swallowed: its diameter */
     assert_true(fw_lens_chord(2.5, 1, 2) == 2);
     double last = 0;
     for (double d = 0; d < 2; d += 0.01) {
@@ -52,7 +54,7 @@ static void ugly_depths(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(agrees_with_circle_equations), cmocka_unit_test(is_symmetric_and_shallow_limit),
-                                       cmocka_unit_test(ugly_depths)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(agrees_with_circle_equations),
+                                       cmocka_unit_test(is_symmetric_and_shallow_limit), cmocka_unit_test(ugly_depths)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

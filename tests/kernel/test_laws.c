@@ -9,10 +9,24 @@
 
 static fw_setup setup(void)
 {
-    return (fw_setup){.structure_radius = 3.7, .speed = 0, .contact = {2e6, 1, 0.1, 1}, .has_floe_contact = true, .has_rotation = true,
-                      .has_friction = true, .ice_density = 900, .method = FW_METHOD_TRBDF2, .tolerance = 1e-5, .velocity_scale = 2,
-                      .first_step = 0.05, .growth = 3, .max_step = INFINITY, .macro_length = 0.2, .skin = 1, .half_width = 50,
-                      .downstream = INFINITY, .max_evaluations = INFINITY};
+    return (fw_setup){.structure_radius = 3.7,
+                      .speed = 0,
+                      .contact = {2e6, 1, 0.1, 1},
+                      .has_floe_contact = true,
+                      .has_rotation = true,
+                      .has_friction = true,
+                      .ice_density = 900,
+                      .method = FW_METHOD_TRBDF2,
+                      .tolerance = 1e-5,
+                      .velocity_scale = 2,
+                      .first_step = 0.05,
+                      .growth = 3,
+                      .max_step = INFINITY,
+                      .macro_length = 0.2,
+                      .skin = 1,
+                      .half_width = 50,
+                      .downstream = INFINITY,
+                      .max_evaluations = INFINITY};
 }
 
 typedef struct rig {
@@ -23,7 +37,7 @@ typedef struct rig {
 
 static rig open_rig(const fw_setup *s)
 {
-    rig                   r   = {0};
+    rig                   r = {0};
     const fw_abrasion_law law = {"bekker2011", 0.116, 1.121, true};
     assert_int_equal(fw_wear_init(&r.wear, s->structure_radius, 360, 1, &law, NULL), FW_OK);
     assert_int_equal(fw_world_create(&r.w, s->structure_radius, NULL), FW_OK);
@@ -42,8 +56,17 @@ static void close_rig(rig *r)
 static void put(rig *r, double x, double y, double D, double h, double vx, double vy, double spin, double drag)
 {
     double  m = 900 * PI * D * D / 4 * h;
-    fw_body b = {.x = x, .y = y, .vx = vx, .vy = vy, .spin = spin, .radius = D / 2, .thickness = h, .inv_mass = 1 / m,
-                 .inv_inertia = 8 / (m * D * D), .drag = drag * D * h, .name = r->w->n_bodies};
+    fw_body b = {.x = x,
+                 .y = y,
+                 .vx = vx,
+                 .vy = vy,
+                 .spin = spin,
+                 .radius = D / 2,
+                 .thickness = h,
+                 .inv_mass = 1 / m,
+                 .inv_inertia = 8 / (m * D * D),
+                 .drag = drag * D * h,
+                 .name = r->w->n_bodies};
     assert_int_equal(fw_world_add_body(r->w, &b, NULL), FW_OK);
     r->w->bodies[r->w->n_bodies - 1].is_touched = true;
 }
@@ -86,7 +109,8 @@ static void free_cluster(void **state)
     assert_true(r.w->ledger.touches >= 3);
     CHECK_NEAR(p1[0], p0[0], 1e-12 * size);
     CHECK_NEAR(p1[1], p0[1], 1e-12 * size);
-    CHECK_NEAR(p1[2], p0[2], 1e-5 * size * 40); /* frozen normals of a stage: to the integrator's order, not to rounding */
+    CHECK_NEAR(p1[2], p0[2],
+               1e-5 * size * 40); /* frozen normals of a stage: to the integrator's order, not to rounding */
     assert_true(last < 0.9 * e0);
     assert_true(fw_ledger_energy_relative(&r.w->ledger) < 1e-12);
     assert_true(fw_ledger_momentum_relative(&r.w->ledger) < 1e-12);
@@ -128,7 +152,7 @@ static void symmetric_at_once(void **state)
     (void)state;
     fw_setup s = setup();
     s.speed = 2;
-    rig r   = open_rig(&s);
+    rig r = open_rig(&s);
     put(&r, -7, 2.5000001, 5, 0.5, 2, 0, 0, 5125);
     put(&r, -7, -2.5000001, 5, 0.5, 2, 0, 0, 5125);
     run(&r, 5);
@@ -171,7 +195,7 @@ static void limits_and_failures(void **state)
     s.speed = 2, s.max_evaluations = 50;
     rig r = open_rig(&s);
     put(&r, -7, 0.1, 5, 0.5, 2, 0, 0, 5125);
-    fw_msg    m  = {""};
+    fw_msg    m = {""};
     fw_status st = FW_OK;
     while (st == FW_OK && r.w->t < 60) st = fw_kernel_step(r.k, r.w, &r.wear, 60, &m);
     assert_int_equal(st, FW_E_LIMIT);
@@ -190,7 +214,8 @@ static void limits_and_failures(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(free_cluster), cmocka_unit_test(mirror_images), cmocka_unit_test(symmetric_at_once),
-                                       cmocka_unit_test(touches_only), cmocka_unit_test(limits_and_failures)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(free_cluster), cmocka_unit_test(mirror_images),
+                                       cmocka_unit_test(symmetric_at_once), cmocka_unit_test(touches_only),
+                                       cmocka_unit_test(limits_and_failures)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

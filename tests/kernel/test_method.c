@@ -13,7 +13,8 @@ static double dot(size_t n, const double *a, const double *b)
 static void order_conditions(const fw_method *m, const double *b, int order)
 {
     size_t n = m->n_stages;
-    double one[FW_MAX_STAGES], c2[FW_MAX_STAGES], c3[FW_MAX_STAGES], ac[FW_MAX_STAGES], ac2[FW_MAX_STAGES], aac[FW_MAX_STAGES], cac[FW_MAX_STAGES];
+    double one[FW_MAX_STAGES], c2[FW_MAX_STAGES], c3[FW_MAX_STAGES], ac[FW_MAX_STAGES], ac2[FW_MAX_STAGES],
+        aac[FW_MAX_STAGES], cac[FW_MAX_STAGES];
     for (size_t i = 0; i < n; i++) {
         one[i] = 1, c2[i] = m->c[i] * m->c[i], c3[i] = c2[i] * m->c[i];
         ac[i] = dot(n, m->a[i], m->c);

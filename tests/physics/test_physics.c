@@ -11,7 +11,7 @@ static void contact_constants(void **state)
     (void)state;
     /* m = 4 kg, k = 9 N/m: critical c = 2 sqrt(k m) = 12, w = 1.5 by hand */
     fw_contact_law       law = {9, 1, 0.1, 0.5};
-    fw_contact_constants c   = fw_contact_law_apply(&law, 4);
+    fw_contact_constants c = fw_contact_law_apply(&law, 4);
     CHECK_NEAR(c.c, 12, 1e-14);
     CHECK_NEAR(c.ct, 6, 1e-14);
     CHECK_NEAR(c.omega, 1.5, 1e-15);
@@ -45,7 +45,8 @@ static void drag_flow(void **state)
 {
     (void)state;
     for (double K = 1e-9; K < 100; K *= 7) {
-        fw_drag_flow whole = fw_drag_free(K, 1.7, 2.5), first = fw_drag_free(K, 1.7, 1.1), rest = fw_drag_free(K, first.speed, 1.4);
+        fw_drag_flow whole = fw_drag_free(K, 1.7, 2.5), first = fw_drag_free(K, 1.7, 1.1),
+                     rest = fw_drag_free(K, first.speed, 1.4);
         CHECK_RELATIVE(rest.speed, whole.speed, 1e-14);
         CHECK_RELATIVE(first.distance + rest.distance, whole.distance, 1e-13);
         /* dr/dt = -K r^2 by a central difference */
@@ -84,7 +85,8 @@ static void abrasion_laws(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(contact_constants), cmocka_unit_test(critical_closed_form), cmocka_unit_test(drag_flow),
-                                       cmocka_unit_test(unbreakable_floes), cmocka_unit_test(abrasion_laws)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(contact_constants), cmocka_unit_test(critical_closed_form),
+                                       cmocka_unit_test(drag_flow), cmocka_unit_test(unbreakable_floes),
+                                       cmocka_unit_test(abrasion_laws)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,7 +18,7 @@ static outcome head_on(double accuracy, double D, double h, double v, double wt)
     fw_scene_result r;
     fw_msg          msg = {""};
     if (fw_scene_run(&s, NULL, NULL, &r, &msg) != FW_OK) fail_msg("%s", msg.text);
-    double  t2 = fmin(wt, 2), d, u, J;
+    double t2 = fmin(wt, 2), d, u, J;
     d = v * t2 / w * exp(-t2), u = v * exp(-t2) * (1 - t2); /* u: closing rate */
     if (wt > 2) d += u * (wt - 2) / w;
     J = m * (v - u);
@@ -43,13 +43,30 @@ static void within(double accuracy, double tolerance)
             }
 }
 
-static void at_10(void **state) { (void)state; within(0.1, 0.1); }
-static void at_1(void **state) { (void)state; within(0.01, 0.01); }
-static void at_01(void **state) { (void)state; within(0.001, 0.001); }
-static void at_finest(void **state) { (void)state; within(0.0001, 1e-6); }
+static void at_10(void **state)
+{
+    (void)state;
+    within(0.1, 0.1);
+}
+static void at_1(void **state)
+{
+    (void)state;
+    within(0.01, 0.01);
+}
+static void at_01(void **state)
+{
+    (void)state;
+    within(0.001, 0.001);
+}
+static void at_finest(void **state)
+{
+    (void)state;
+    within(0.0001, 1e-6);
+}
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(at_10), cmocka_unit_test(at_1), cmocka_unit_test(at_01), cmocka_unit_test(at_finest)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(at_10), cmocka_unit_test(at_1), cmocka_unit_test(at_01),
+                                       cmocka_unit_test(at_finest)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -37,7 +37,8 @@ static void strip_width(void **state)
     fw_model narrow = model(), wide = model(), normal = model();
     narrow.strip_width = 60, wide.strip_width = 160;
     double w60 = sum_of(narrow), w100 = sum_of(normal), w160 = sum_of(wide);
-    print_message("60 m: %+.2f %%, 160 m: %+.2f %% of the load at 100 m\n", 100 * (w60 / w100 - 1), 100 * (w160 / w100 - 1));
+    print_message("60 m: %+.2f %%, 160 m: %+.2f %% of the load at 100 m\n", 100 * (w60 / w100 - 1),
+                  100 * (w160 / w100 - 1));
     CHECK_RELATIVE(w160, w100, 0.005);
     CHECK_RELATIVE(w60, w100, 0.03);
 }
@@ -58,7 +59,8 @@ static void ring_of_arcs(void **state)
     fw_model coarse = model(), fine = model();
     coarse.n_arcs = 72, fine.n_arcs = 1440;
     double a = load_of(coarse, 1), b = load_of(model(), 1), c = load_of(fine, 1);
-    CHECK_RELATIVE(a, b, 1e-3); /* arcs only share out what the patch collects; where a patch is set down depends on them */
+    CHECK_RELATIVE(a, b,
+                   1e-3); /* arcs only share out what the patch collects; where a patch is set down depends on them */
     CHECK_RELATIVE(c, b, 1e-3);
 }
 
@@ -75,14 +77,15 @@ static void warm_up(void **state)
         sum += b - a, sum2 += (b - a) * (b - a), mean += a / N;
     }
     double difference = sum / N, error = sqrt((sum2 / N - difference * difference) / N);
-    print_message("after 240 s: %+.1f %% +- %.1f %% of the rate after 60 s\n", 100 * difference / mean, 100 * error / mean);
+    print_message("after 240 s: %+.1f %% +- %.1f %% of the rate after 60 s\n", 100 * difference / mean,
+                  100 * error / mean);
     CHECK_NEAR(difference, 0, 4 * error);
     assert_true(error < 0.15 * mean);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(strip_width), cmocka_unit_test(downstream_reach), cmocka_unit_test(ring_of_arcs),
-                                       cmocka_unit_test(warm_up)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(strip_width), cmocka_unit_test(downstream_reach),
+                                       cmocka_unit_test(ring_of_arcs), cmocka_unit_test(warm_up)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

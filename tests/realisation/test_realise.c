@@ -24,7 +24,7 @@ static double depth_75(const fw_record *r)
     fw_model m;
     fw_model_defaults(&m);
     double sum = 0;
-    size_t n   = 0;
+    size_t n = 0;
     for (size_t k = 0; k < 360; k++)
         if (k < 75 || k >= 285) sum += fw_record_load(r, 0, FW_RING_LOAD)[k], n++;
     return sum / (double)n * fw_abrasion_rate(&m.laws[0], -10);
@@ -33,7 +33,8 @@ static double depth_75(const fw_record *r)
 static void is_a_pure_function(void **state)
 {
     (void)state;
-    fw_record      a = realise(0.4, 1.5, 120, 0.01, 3), between = realise(0.2, 0.7, 60, 0.01, 4), b = realise(0.4, 1.5, 120, 0.01, 3);
+    fw_record a = realise(0.4, 1.5, 120, 0.01, 3), between = realise(0.2, 0.7, 60, 0.01, 4),
+              b = realise(0.4, 1.5, 120, 0.01, 3);
     size_t         n = fw_record_packed_size(a.n_arcs, a.n_laws);
     unsigned char *p = malloc(n), *q = malloc(n);
     a.host_cpu_s = b.host_cpu_s = 0;
@@ -118,7 +119,7 @@ static void stops_and_refuses(void **state)
     fw_model_defaults(&m);
     fw_scenario s = {.concentration = 0.4, .speed = 2};
     fw_record   r;
-    int         n    = 0;
+    int         n = 0;
     fw_tick     tick = {stop_now, &n};
     assert_int_equal(fw_realise(&m, &s, &tick, &r, NULL), FW_E_STOPPED);
     assert_int_equal(n, 1);
@@ -131,8 +132,8 @@ static void stops_and_refuses(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(is_a_pure_function), cmocka_unit_test(papers_example), cmocka_unit_test(three_hours),
-                                       cmocka_unit_test(speed_cubed), cmocka_unit_test(accuracy_of_a_window),
-                                       cmocka_unit_test(stops_and_refuses)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(is_a_pure_function),   cmocka_unit_test(papers_example),
+                                       cmocka_unit_test(three_hours),          cmocka_unit_test(speed_cubed),
+                                       cmocka_unit_test(accuracy_of_a_window), cmocka_unit_test(stops_and_refuses)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -71,15 +71,17 @@ static void single_floes_at(double accuracy, double depth_tolerance)
         const char *outcome = text(t, row, "outcome");
         double      D = value(t, row, "D"), y0 = value(t, row, "y0"), reach = 3.7 + D / 2, gap = 0.3;
         bool        is_miss = strcmp(outcome, "miss") == 0;
-        double      x0      = is_miss ? -8 : -(sqrt(reach * reach - y0 * y0) + gap); /* touches gap / u after the start */
-        fw_floe     f       = {.x = x0, .y = y0, .diameter = D, .thickness = value(t, row, "h"), .vx = 2};
+        double      x0 = is_miss ? -8 : -(sqrt(reach * reach - y0 * y0) + gap); /* touches gap / u after the start */
+        fw_floe     f = {.x = x0, .y = y0, .diameter = D, .thickness = value(t, row, "h"), .vx = 2};
         bool        is_pinned = strncmp(outcome, "pinned", 6) == 0;
-        double      stay    = is_pinned ? 60 : is_miss ? 10 : value(t, row, "t_release") + 1;
-        fw_scene    s       = scene_of(&f, 1, stay + gap / 2, accuracy);
+        double      stay = is_pinned ? 60 : is_miss ? 10 : value(t, row, "t_release") + 1;
+        fw_scene    s = scene_of(&f, 1, stay + gap / 2, accuracy);
         fw_scene_result r;
         fw_msg          m = {""};
-        if (fw_scene_run(&s, NULL, NULL, &r, &m) != FW_OK) fail_msg("case %s offset %g: %s", text(t, row, "case"), y0, m.text);
-        print_message("case %s offset %g: %.0f force evaluations\n", text(t, row, "case"), y0, r.record.force_evaluations);
+        if (fw_scene_run(&s, NULL, NULL, &r, &m) != FW_OK)
+            fail_msg("case %s offset %g: %s", text(t, row, "case"), y0, m.text);
+        print_message("case %s offset %g: %.0f force evaluations\n", text(t, row, "case"), y0,
+                      r.record.force_evaluations);
         if (is_miss) {
             assert_true(r.record.hits == 0 && r.path == 0 && r.record.normal_impulse == 0);
         } else {
@@ -114,8 +116,13 @@ static void several_floes_at(double accuracy, double depth_tolerance, double pos
         fw_floe f[8];
         for (n = 0; row + n < t->n_rows && strcmp(text(t, row + n, "scene"), text(t, row, "scene")) == 0; n++) {
             size_t k = row + n;
-            f[n] = (fw_floe){.x = value(t, k, "x0"), .y = value(t, k, "y0"), .diameter = value(t, k, "D"), .thickness = value(t, k, "h"),
-                             .vx = value(t, k, "vx0"), .vy = value(t, k, "vy0"), .spin = value(t, k, "spin0")};
+            f[n] = (fw_floe){.x = value(t, k, "x0"),
+                             .y = value(t, k, "y0"),
+                             .diameter = value(t, k, "D"),
+                             .thickness = value(t, k, "h"),
+                             .vx = value(t, k, "vx0"),
+                             .vy = value(t, k, "vy0"),
+                             .spin = value(t, k, "spin0")};
         }
         fw_scene        s = scene_of(f, n, value(t, row, "t_end"), accuracy);
         fw_scene_result r;
@@ -142,16 +149,41 @@ static void several_floes_at(double accuracy, double depth_tolerance, double pos
     free(t);
 }
 
-static void single_10(void **state)  { (void)state; single_floes_at(0.1, 0.1); }
-static void single_1(void **state)   { (void)state; single_floes_at(0.01, 0.01); }
-static void single_01(void **state)  { (void)state; single_floes_at(0.001, 0.001); }
-static void several_10(void **state) { (void)state; several_floes_at(0.1, 0.1, 0.05); }
-static void several_1(void **state)  { (void)state; several_floes_at(0.01, 0.01, 0.02); }
-static void several_01(void **state) { (void)state; several_floes_at(0.001, 0.001, 0.005); }
+static void single_10(void **state)
+{
+    (void)state;
+    single_floes_at(0.1, 0.1);
+}
+static void single_1(void **state)
+{
+    (void)state;
+    single_floes_at(0.01, 0.01);
+}
+static void single_01(void **state)
+{
+    (void)state;
+    single_floes_at(0.001, 0.001);
+}
+static void several_10(void **state)
+{
+    (void)state;
+    several_floes_at(0.1, 0.1, 0.05);
+}
+static void several_1(void **state)
+{
+    (void)state;
+    several_floes_at(0.01, 0.01, 0.02);
+}
+static void several_01(void **state)
+{
+    (void)state;
+    several_floes_at(0.001, 0.001, 0.005);
+}
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(single_10),  cmocka_unit_test(single_1),  cmocka_unit_test(single_01),
-                                       cmocka_unit_test(several_10), cmocka_unit_test(several_1), cmocka_unit_test(several_01)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(single_10), cmocka_unit_test(single_1),
+                                       cmocka_unit_test(single_01), cmocka_unit_test(several_10),
+                                       cmocka_unit_test(several_1), cmocka_unit_test(several_01)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,7 +6,15 @@
 
 static fw_body floe(double x, double y, double r, uint64_t name)
 {
-    return (fw_body){.x = x, .y = y, .vx = 1, .radius = r, .thickness = 0.5, .inv_mass = 0.5, .inv_inertia = 0.25, .spin = 2, .name = name};
+    return (fw_body){.x = x,
+                     .y = y,
+                     .vx = 1,
+                     .radius = r,
+                     .thickness = 0.5,
+                     .inv_mass = 0.5,
+                     .inv_inertia = 0.25,
+                     .spin = 2,
+                     .name = name};
 }
 
 static void bodies_and_energy(void **state)
@@ -33,7 +41,8 @@ static void forgetting(void **state)
         fw_body b = floe(2.0 * i, 10, 1.05, (uint64_t)i);
         assert_int_equal(fw_world_add_body(w, &b, NULL), FW_OK);
     }
-    fw_contact c[3] = {{.i = 0, .j = 1, .law = {.k = 100}}, {.i = 1, .j = 2, .law = {.k = 100}}, {.i = 2, .j = 3, .law = {.k = 100}}};
+    fw_contact c[3] = {
+        {.i = 0, .j = 1, .law = {.k = 100}}, {.i = 1, .j = 2, .law = {.k = 100}}, {.i = 2, .j = 3, .law = {.k = 100}}};
     w->contacts = malloc(sizeof c), memcpy(w->contacts, c, sizeof c), w->n_contacts = 3;
     for (int i = 0; i < 4; i++) w->bodies[i].n_closed = i % 3 ? 2 : 1;
     fw_world_open_ledger(w);
@@ -73,7 +82,13 @@ static void blocks(void **state)
 static void ledgers(void **state)
 {
     (void)state;
-    fw_ledger l = {.kinetic_change = 5, .impulse_work = 5, .impulse_size = 100, .momentum_size = 10, .dashpot = 3, .friction = 1, .dropped = 1,
+    fw_ledger l = {.kinetic_change = 5,
+                   .impulse_work = 5,
+                   .impulse_size = 100,
+                   .momentum_size = 10,
+                   .dashpot = 3,
+                   .friction = 1,
+                   .dropped = 1,
                    .drag_work = 2};
     assert_true(fw_ledger_energy_relative(&l) == 0 && fw_ledger_momentum_relative(&l) == 0);
     CHECK_NEAR(fw_ledger_energy_truncation(&l, 10, 7), 0, 1e-15);
@@ -87,7 +102,7 @@ static void ledgers(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(bodies_and_energy), cmocka_unit_test(forgetting), cmocka_unit_test(blocks),
-                                       cmocka_unit_test(ledgers)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(bodies_and_energy), cmocka_unit_test(forgetting),
+                                       cmocka_unit_test(blocks), cmocka_unit_test(ledgers)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
