@@ -1,6 +1,6 @@
 /* The plain method, for comparison only: every floe between an inlet and the outlet stepped at one fixed step, explicit
  * forces, wear summed as rate at the step's end times dt. This is what a straightforward DEM does; benchmarks measure the
- * kernel against it in the same run, on the same ice. Single near head-on hits are tens of per cent wrong at 1 ms; in
+ * kernel against it in the same run, on the same ice. Prototypes were 11-31 % wrong on single hits at 1 ms; in
  * windows at 10 and 40 % most wear is rubbing and the sum is within 0.4 % (tests/bench/RESULTS.md), at ten times the cost. */
 #ifndef FW_KERNEL_PLAIN_H
 #define FW_KERNEL_PLAIN_H
