@@ -55,6 +55,31 @@ typedef struct fw_abrasion_law {
 /* Factor that turns a law's wear load [MPa^m km] into depth [mm] at temperature T [degC]. */
 double fw_abrasion_rate(const fw_abrasion_law *law, double temperature);
 
+/* How a window is computed. Zeros stand for what a user gets: the event-driven kernel with the settings that
+ * realisation/accuracy.c chooses for fw_model.accuracy. Everything else is there to measure that choice against. */
+typedef enum fw_scheme {
+    FW_SCHEME_EVENTS, /* touches located, each cluster of touching floes with steps of its own, error control */
+    FW_SCHEME_EULER,  /* every floe, fixed step: semi-implicit Euler, the plain DEM */
+    FW_SCHEME_VERLET, /* every floe, fixed step: velocity Verlet with explicit forces */
+    FW_SCHEME_RK4     /* every floe, fixed step: the classical fourth-order method */
+} fw_scheme;
+
+typedef enum fw_wear_rule {
+    FW_WEAR_HERMITE,  /* overlap as a cubic, Gauss nodes in (time since touch)^(1 - m/2) */
+    FW_WEAR_SINGULAR, /* the same nodes, overlap and forces linear between the step's ends */
+    FW_WEAR_NAIVE     /* the rate at the step's end times the step */
+} fw_wear_rule;
+
+typedef struct fw_numerics {
+    fw_scheme    scheme;
+    fw_wear_rule wear_rule;
+    double       step;       /* of a fixed-step scheme [s] */
+    int          order;      /* of the event-driven kernel's integrator, 2, 3 or 4; 0: chosen */
+    double       tolerance;  /* local error of velocity over the current's speed [-]; 0: chosen */
+    double       first_step; /* after a touch [1/w]; 0: chosen */
+    double       growth;     /* largest factor from one step to the next; 0: chosen */
+} fw_numerics;
+
 typedef struct fw_model {
     double   structure_radius;   /* [m] */
     double   ice_density;        /* [kg/m3] */
@@ -80,7 +105,7 @@ typedef struct fw_model {
     size_t n_arcs;      /* of the ring, >= 72; default 360 */
     double strip_width; /* [m]; <= 0: auto (100 m) */
     double downstream;  /* floes are forgotten beyond this x [m]; <= 0: auto */
-    double plain_step;  /* > 0: the plain every-floe method at this step [s], for benchmarks; 0: the kernel proper */
+    fw_numerics numerics;
 } fw_model;
 
 typedef struct fw_scenario {

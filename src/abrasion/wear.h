@@ -27,6 +27,7 @@ typedef struct fw_wear {
     size_t       n_arcs, n_laws;
     double       exponent[FW_MAX_LAWS];
     double       high_pressure;        /* [Pa] the share above it is kept apart: 5 MPa */
+    fw_wear_rule rule;
     bool         is_open;              /* collecting: false during warm-up */
     double      *path;                 /* (n_arcs) [m] */
     double      *load[FW_MAX_LAWS][3]; /* (n_arcs) each: all, within 2/w of a hit, above high_pressure [Pa^m m] */

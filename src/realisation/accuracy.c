@@ -51,6 +51,11 @@ void fw_accuracy_setup(fw_setup *s, const fw_model *m, double speed, double velo
         .downstream = fw_accuracy_downstream(m),
         .max_evaluations = INFINITY,
     };
+    const fw_numerics *own = &m->numerics; /* of a study of the choice itself */
+    if (own->order) s->method = own->order == 2 ? FW_METHOD_TRBDF2 : own->order == 3 ? FW_METHOD_ARK3 : FW_METHOD_ARK4;
+    if (own->tolerance > 0) s->tolerance = own->tolerance;
+    if (own->first_step > 0) s->first_step = own->first_step;
+    if (own->growth > 0) s->growth = own->growth;
 }
 
 /* Measured at 2 m/s, 1 %, eight windows of 1800 s on the same ice (change of the mean load; at 60 % windows decouple, so +-1 % is noise):

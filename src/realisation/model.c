@@ -58,6 +58,12 @@ fw_status fw_model_check(const fw_model *m, fw_msg *msg)
              m->laws[i].name, m->laws[i].exponent);
     NEED(is_in(m->window, 1e-3, 1e9), "window %g s: wanted 1e-3 to 1e9 s", m->window);
     NEED(is_in(m->accuracy, 1e-4, 0.1), "accuracy %g: wanted 0.01 %% to 10 %%", m->accuracy);
+    const fw_numerics *n = &m->numerics;
+    NEED(n->scheme == FW_SCHEME_EVENTS || is_in(n->step, 1e-6, 1), "fixed step %g s: wanted 1e-6 to 1 s", n->step);
+    NEED(n->order == 0 || (n->order >= 2 && n->order <= 4), "integrator of order %d: wanted 2, 3 or 4", n->order);
+    NEED(is_in(n->tolerance, 0, 1) && is_in(n->first_step, 0, 10) && is_in(n->growth, 0, 100),
+         "numerics: tolerance %g, first step %g, growth %g: wanted 0 to 1, 10, 100", n->tolerance, n->first_step,
+         n->growth);
     NEED(m->n_arcs >= 72 && m->n_arcs <= 3600, "ring of %zu arcs: wanted 72 to 3600", m->n_arcs);
     NEED(m->n_mixes >= 1 && m->n_mixes <= FW_MAX_MIXES, "%zu thickness mixes: wanted 1 to %d", m->n_mixes,
          (int)FW_MAX_MIXES);

@@ -93,8 +93,8 @@ static fw_status lay(run *r, const fw_scenario *sc, fw_msg *m)
     if (r->row1 < 0) r->row1 = 0;
     r->row0 = -r->row1;
     FW_TRY(fw_world_create(&r->world, r->model->structure_radius, m));
-    if (r->model->plain_step > 0)
-        FW_TRY(fw_plain_create(&r->plain, &r->setup, r->model->plain_step, PLAIN_INLET, m));
+    if (r->model->numerics.scheme != FW_SCHEME_EVENTS)
+        FW_TRY(fw_plain_create(&r->plain, &r->setup, r->model->numerics.step, PLAIN_INLET, m));
     else
         FW_TRY(fw_kernel_create(&r->kernel, &r->setup, m));
     r->world->max_radius = fw_field_max_radius(r->field);
@@ -167,6 +167,7 @@ fw_status fw_realise(const fw_model *model, const fw_scenario *sc, const fw_tick
         double spent = r.world->ledger.force_evaluations, steps = r.world->ledger.steps;
         fw_world_open_ledger(r.world);
         r.world->ledger.force_evaluations = spent, r.world->ledger.steps = steps; /* cost counts from the start */
+        r.wear.rule = model->numerics.wear_rule;
         r.wear.is_open = true;
         s = go(&r, t_all, t_all, tick, &stopped, m);
     }

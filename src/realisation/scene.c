@@ -103,6 +103,7 @@ fw_status fw_scene_run(const fw_scene *scene, const fw_tick *tick, const fw_fram
     if (s == FW_OK) s = fw_kernel_create(&k, &setup, m);
     if (s == FW_OK) s = add_floes(w, scene, &setup, m);
     if (s == FW_OK) {
+        wear.rule = scene->model.numerics.wear_rule;
         wear.is_open = true;
         fw_world_open_ledger(w);
         s = simulate(k, w, &wear, scene->duration, tick, frames, out->floes, m);
