@@ -1,3 +1,11 @@
+/* The order of events: a step of a cluster ends, or two rims touch; whichever is first.
+ *
+ *   step ends    it is committed; contacts that let go are taken out, the cluster may fall apart; next step on trial
+ *   rims touch   both sides are brought to that very instant (a cluster's step is cut and tried again, a free floe flies there,
+ *                untouched ice wakes), become one cluster, and start anew with short steps
+ *
+ * Nobody is committed past anybody's next event, so a step can always be cut where somebody else comes in. Nobody waits for a
+ * smaller neighbour either: each cluster has a pace of its own, and floes in no contact cost nothing between two touches. */
 #include "kernel/kernel.h"
 
 #include <math.h>
@@ -5,174 +13,102 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "kernel/island.h"
-#include "kernel/neighbours.h"
+#include "kernel/traffic.h"
 #include "kernel/wake.h"
 
-/* How fast a pair may close within a macro-step. In free flight speeds relative to the water only fall. From the moment on that
- * a floe is in contact or can be hit, it may stop dead or be pushed to the velocity scale: pairs with such a stirred floe get that
- * on top. Hits pass on through a raft within one macro-step, so the moments are worked out along chains: without that, 19 floes
- * 1 mm apart ran 0.1 m into each other and gained a third of their energy. What still slips through (a light floe squeezed out faster
- * than the velocity scale) is found late and counted in the ledger. */
+enum { MAX_LANDINGS = 8 };
+
+/* Floes squeezed out from between others have been seen at up to twice the current's speed relative to the water; who is faster than
+ * this is checked without the shortcut that it bounds. */
+static const double SWIFT = 1.5;
 
 struct fw_kernel {
-    fw_setup      setup;
-    fw_neighbours neighbours;
-    double        macro_time;
-    /* work, grown between steps */
-    int32_t      *root;
-    size_t        root_capacity; /* union-find over awake floes */
-    int32_t      *member_of;
-    size_t        member_capacity; /* awake floe -> member of the island being built */
-    double       *way;
-    size_t        way_capacity; /* speeds of awake floes relative to the water [m/s] */
-    double       *stirred_at;
-    size_t        stirred_capacity; /* from when on a contact may change its velocity, after the macro-step's
-                                                      * start [s]; INFINITY: not within it */
-    bool         *is_gone;
-    size_t        gone_capacity;
-    fw_member    *members;
-    size_t        members_capacity;
-    fw_pair      *pairs;
-    size_t        pairs_capacity;
-    int32_t      *closed;
-    size_t        closed_capacity;
-    int32_t      *held;
-    size_t        held_capacity;
-    struct link {
-        int32_t root, i, j, contact;
-    }          *links;
-    size_t      link_capacity; /* near or closed pairs by island */
-    fw_contact *contacts;
-    size_t      contacts_capacity; /* closed at the macro-step's end */
+    fw_traffic   traffic;
+    double       horizon; /* time between two listings [s] */
+    double       ice_from; /* the caller has put ice into the world up to here (kernel frame) [m] */
+    fw_cluster **clusters;
+    size_t       n_clusters, cluster_capacity;
+    fw_cluster **spare; /* emptied ones, with their memory */
+    size_t       n_spare, spare_capacity;
+    int32_t     *opened, *root, *new_name;
+    size_t       opened_capacity, root_capacity, name_capacity;
+    size_t       n_seated; /* bodies that have a seat */
+    bool        *is_gone;
+    size_t       gone_capacity;
 };
 
 fw_status fw_kernel_create(fw_kernel **out, const fw_setup *setup, fw_msg *m)
 {
-    FW_CHECK(setup->velocity_scale > 0 && setup->macro_length > 0 && setup->tolerance > 0 && setup->skin > 0, m,
-             FW_E_ARG, "kernel: velocity scale, macro length, tolerance and skin must be positive");
+    FW_CHECK(setup->velocity_scale > 0 && setup->horizon > 0 && setup->tolerance > 0 && setup->margin > 0, m, FW_E_ARG,
+             "kernel: velocity scale, horizon, tolerance and margin must be positive");
     FW_TRY(fw_alloc(out, 1, sizeof **out, "kernel", m));
-    (*out)->setup = *setup;
-    (*out)->macro_time = setup->macro_length / setup->velocity_scale;
+    (*out)->traffic.setup = *setup;
+    (*out)->traffic.swift = SWIFT * setup->velocity_scale;
+    (*out)->horizon = setup->horizon / setup->velocity_scale;
     return FW_OK;
 }
 
 void fw_kernel_destroy(fw_kernel *k)
 {
     if (!k) return;
-    fw_neighbours_free(&k->neighbours);
+    for (size_t i = 0; i < k->n_clusters; i++) fw_cluster_free(k->clusters[i]);
+    for (size_t i = 0; i < k->n_spare; i++) fw_cluster_free(k->spare[i]);
+    fw_traffic_free(&k->traffic);
+    free(k->clusters);
+    free(k->spare);
+    free(k->opened);
     free(k->root);
-    free(k->member_of);
-    free(k->way);
-    free(k->stirred_at);
+    free(k->new_name);
     free(k->is_gone);
-    free(k->members);
-    free(k->pairs);
-    free(k->closed);
-    free(k->held);
-    free(k->links);
-    free(k->contacts);
     free(k);
+}
+
+/* Upstream of the awake floes: who is reached within one horizon, and once more for who those push. */
+static double ice_margin(const fw_kernel *k, const fw_world *w)
+{
+    return w->max_radius + 2 * k->traffic.setup.horizon + k->traffic.setup.margin;
 }
 
 double fw_kernel_needs_ice_from(const fw_kernel *k, const fw_world *w)
 {
     double least = -w->structure_radius;
     for (size_t i = 0; i < w->n_bodies; i++) least = fw_smaller(least, w->bodies[i].x - w->bodies[i].radius);
-    return least - w->max_radius - 2 * k->setup.skin;
+    return least - ice_margin(k, w) - 2 * w->max_radius;
 }
 
-static double undisturbed_gap(const fw_world *w, double x, double y, double radius, const fw_block *b, size_t row)
-{
-    double dx = x - b->x[row] - w->drift, dy = y - b->y[row];
-    return sqrt(dx * dx + dy * dy) - radius - b->radius[row];
-}
+/* --- clusters --------------------------------------------------------------------------------------------------------- */
 
-fw_status fw_wake(const fw_setup *s, fw_world *w, size_t block, size_t row, fw_msg *m)
+static fw_status new_cluster(fw_kernel *k, double t, fw_cluster **out, fw_msg *m)
 {
-    fw_block *b = &w->blocks[block];
-    double    r = b->radius[row], h = b->thickness[row], mass = s->ice_density * 3.14159265358979323846 * r * r * h;
-    fw_body   body = {.x = b->x[row] + w->drift,
-                      .y = b->y[row],
-                      .vx = s->speed,
-                      .radius = r,
-                      .thickness = h,
-                      .inv_mass = 1 / mass,
-                      .inv_inertia = s->has_rotation ? 2 / (mass * r * r) : 0,
-                      .drag = s->drag_per_area * 2 * r * h,
-                      .name = b->first_name + row};
-    b->is_taken[row] = true;
-    b->n_left--;
-    return fw_world_add_body(w, &body, m);
-}
-
-static double way_relative_to_water(const fw_setup *s, const fw_body *b) { return fw_length(b->vx - s->speed, b->vy); }
-
-/* The earliest time at which the pair can meet, by its own flight or after one of them was hit; INFINITY: not within H. */
-static double meets_at(const fw_kernel *k, const fw_world *w, int32_t i, int32_t j, double H)
-{
-    const fw_setup *s = &k->setup;
-    const fw_body  *a = &w->bodies[i], *b = j == FW_WALL ? NULL : &w->bodies[j];
-    double speed = k->way[i] + (b ? k->way[j] : s->speed), reach = a->radius + (b ? b->radius : w->structure_radius);
-    double dx = b ? a->x - b->x : a->x, dy = b ? a->y - b->y : a->y, d2 = dx * dx + dy * dy;
-    double limit = reach + (speed + s->velocity_scale) * H * (1 + 1e-9);
-    if (d2 > limit * limit) return INFINITY; /* most pairs within the skin end here */
-    double stirred = j == FW_WALL ? k->stirred_at[i] : fw_smaller(k->stirred_at[i], k->stirred_at[j]);
-    double gap = sqrt(d2) - reach;
-    if (!(gap > 0)) return 0;
-    double alone = speed > 0 ? gap / speed : INFINITY;
-    return alone <= stirred ? alone : (gap + s->velocity_scale * stirred) / (speed + s->velocity_scale);
-}
-
-/* Who is in contact or may be hit within H, and when at the earliest. Times only fall, the least one is final at once. */
-static void stir(fw_kernel *k, const fw_world *w, double H)
-{
-    double *at = k->stirred_at;
-    bool    is_final = false;
-    for (size_t i = 0; i < w->n_bodies; i++) {
-        at[i] = w->bodies[i].n_closed > 0 ? 0 : INFINITY;
-        k->way[i] = way_relative_to_water(&k->setup, &w->bodies[i]);
-    }
-    while (!is_final) {
-        is_final = true;
-        for (size_t q = 0; q < k->neighbours.n_near; q++) {
-            fw_near e = k->neighbours.near[q];
-            double  first = e.j < 0 ? at[e.i] : fw_smaller(at[e.i], at[e.j]),
-                   last = e.j < 0 ? at[e.i] : fw_larger(at[e.i], at[e.j]);
-            if (e.j >= 0 && !w->bodies[e.i].is_touched && !w->bodies[e.j].is_touched && first == INFINITY) continue;
-            if (last == 0) continue;
-            double t = meets_at(k, w, e.i, e.j, H);
-            if (!(t <= H) || !(t < last)) continue;
-            if (t < at[e.i]) at[e.i] = t;
-            if (e.j >= 0 && t < at[e.j]) at[e.j] = t;
-            is_final = false;
-        }
-    }
-}
-
-/* Untouched floes that something may reach within the macro-step become awake. */
-static fw_status wake_near(fw_kernel *k, fw_world *w, double H, bool *is_changed, fw_msg *m)
-{
-    const fw_setup *s = &k->setup;
-    *is_changed = false;
-    for (size_t q = 0; q < k->neighbours.n_sleepers; q++) {
-        fw_sleeper_near n = k->neighbours.sleepers[q];
-        fw_block       *b = &w->blocks[n.block];
-        if (b->is_taken[n.row]) continue;
-        double gap, way = s->speed * H;
-        if (n.i == FW_WALL) {
-            gap = undisturbed_gap(w, 0, 0, w->structure_radius, b, n.row);
-        } else {
-            const fw_body *a = &w->bodies[n.i];
-            if (!a->is_touched && !(k->stirred_at[n.i] < H)) continue;
-            gap = undisturbed_gap(w, a->x, a->y, a->radius, b, n.row);
-            way = k->way[n.i] * H + s->velocity_scale * fw_larger(0, H - k->stirred_at[n.i]);
-        }
-        if (gap > way) continue;
-        FW_TRY(fw_wake(s, w, n.block, n.row, m));
-        *is_changed = true;
-    }
+    FW_TRY(fw_grow(&k->clusters, &k->cluster_capacity, k->n_clusters + 1, sizeof *k->clusters, "clusters", m));
+    FW_TRY(fw_grow(&k->spare, &k->spare_capacity, k->n_clusters + k->n_spare + 1, sizeof *k->spare, "clusters", m));
+    fw_cluster *c;
+    if (k->n_spare)
+        c = k->spare[--k->n_spare];
+    else
+        FW_TRY(fw_alloc(&c, 1, sizeof *c, "cluster", m));
+    c->n_members = c->n_pairs = 0;
+    c->t0 = c->t1 = t, c->h = INFINITY, c->omega = 0, c->is_kept = false;
+    k->clusters[k->n_clusters++] = c;
+    *out = c;
     return FW_OK;
+}
+
+static void retire(fw_kernel *k, fw_cluster *c)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < k->n_clusters; i++)
+        if (k->clusters[i] != c) k->clusters[kept++] = k->clusters[i];
+    k->n_clusters = kept;
+    k->spare[k->n_spare++] = c;
+}
+
+static void seat_members(fw_kernel *k, fw_cluster *c)
+{
+    for (size_t i = 0; i < c->n_members; i++) {
+        fw_seat *s = &k->traffic.seats[c->members[i].index];
+        s->cluster = c, s->member = (int32_t)i;
+    }
 }
 
 static int32_t find_root(int32_t *root, int32_t i)
@@ -181,243 +117,521 @@ static int32_t find_root(int32_t *root, int32_t i)
     return i;
 }
 
-/* The lowest floe of an island is its root: islands are worked in a fixed order. */
-static void join(int32_t *root, int32_t i, int32_t j)
+/* Members that nothing holds fly on alone; parts that nothing joins become clusters of their own. The new ones stand at the end
+ * of k->clusters, from *first on. */
+static fw_status fall_apart(fw_kernel *k, fw_cluster *c, size_t *first, fw_msg *m)
 {
-    i = find_root(root, i), j = find_root(root, j);
-    if (i < j)
-        root[j] = i;
-    else
-        root[i] = j;
-}
-
-static int link_order(const void *x, const void *y)
-{
-    const struct link *a = x, *b = y;
-    if (a->root != b->root) return a->root < b->root ? -1 : 1;
-    if (a->i != b->i) return a->i < b->i ? -1 : 1;
-    /* the structure's contact of a floe comes last */
-    uint32_t p = (uint32_t)a->j, q = (uint32_t)b->j;
-    return p < q ? -1 : p > q;
-}
-
-static int contact_order(const void *x, const void *y)
-{
-    const fw_contact *a = x, *b = y;
-    if (a->i != b->i) return a->i < b->i ? -1 : 1;
-    uint32_t p = (uint32_t)a->j, q = (uint32_t)b->j;
-    return p < q ? -1 : p > q;
-}
-
-static fw_status find_links(fw_kernel *k, const fw_world *w, double H, size_t *n_links, fw_msg *m)
-{
-    size_t n = 0, at = 0;
-    FW_TRY(fw_grow(&k->links, &k->link_capacity, k->neighbours.n_near + w->n_contacts, sizeof *k->links, "islands", m));
-    for (size_t i = 0; i < w->n_bodies; i++) k->root[i] = (int32_t)i;
-    /* Both lists are ordered by (i, j): walk them side by side. A closed contact is always a link. */
-    for (size_t q = 0; q < w->n_contacts; q++) {
-        const fw_contact *c = &w->contacts[q];
-        k->links[n++] = (struct link){0, c->i, c->j, (int32_t)q};
-        if (c->j >= 0) join(k->root, c->i, c->j);
-    }
-    for (size_t q = 0; q < k->neighbours.n_near; q++) {
-        fw_near e = k->neighbours.near[q];
-        while (at < w->n_contacts &&
-               (w->contacts[at].i < e.i || (w->contacts[at].i == e.i && (uint32_t)w->contacts[at].j < (uint32_t)e.j)))
-            at++;
-        if (at < w->n_contacts && w->contacts[at].i == e.i && w->contacts[at].j == e.j) continue;
-        if (!(meets_at(k, w, e.i, e.j, H) <= H)) continue;
-        k->links[n++] = (struct link){0, e.i, e.j, -1};
-        if (e.j >= 0) join(k->root, e.i, e.j);
-    }
-    for (size_t q = 0; q < n; q++) k->links[q].root = find_root(k->root, k->links[q].i);
-    if (n > 1) qsort(k->links, n, sizeof *k->links, link_order);
-    *n_links = n;
-    return FW_OK;
-}
-
-static int32_t enrol(fw_kernel *k, fw_world *w, int32_t i, size_t *n_members)
-{
-    if (k->member_of[i] >= 0) return k->member_of[i];
-    fw_member *m = &k->members[*n_members];
-    fw_body   *b = &w->bodies[i];
-    m->body = b, m->index = i, m->n_closed = b->n_closed;
-    m->x0 = b->x, m->y0 = b->y;
-    m->v0[0] = b->vx, m->v0[1] = b->vy, m->v0[2] = b->spin;
-    m->a[0][0] = b->ax, m->a[0][1] = b->ay, m->a[0][2] = b->as;
-    for (int q = 0; q < 3; q++) m->v[0][q] = m->v0[q];
-    return k->member_of[i] = (int32_t)(*n_members)++;
-}
-
-static void load_pair(fw_kernel *k, fw_world *w, const struct link *l, fw_pair *p, size_t *n_members)
-{
-    const fw_setup *s = &k->setup;
-    p->a = enrol(k, w, l->i, n_members);
-    p->b = l->j == FW_WALL ? FW_WALL : enrol(k, w, l->j, n_members);
-    p->is_closed = l->contact >= 0;
-    if (p->is_closed) {
-        const fw_contact *c = &w->contacts[l->contact];
-        p->law = c->law, p->t_touch = c->t_touch, p->since_touch = w->t - c->t_touch;
-        if (p->since_touch <= 0) p->since_touch = 1e-12;
-        p->depth[0] = c->depth, p->rate[0] = c->rate, p->slip[0] = c->slip, p->normal[0] = c->normal,
-        p->friction[0] = c->friction;
-        p->dir[0][0] = c->nx, p->dir[0][1] = c->ny;
-    } else {
-        double inv = w->bodies[l->i].inv_mass + (l->j == FW_WALL ? 0 : w->bodies[l->j].inv_mass);
-        p->law = fw_contact_law_apply(&s->contact, 1 / inv);
-    }
-}
-
-static fw_status save_island(fw_kernel *k, const fw_island *is, size_t *n_contacts, fw_msg *m)
-{
-    for (size_t i = 0; i < is->n_members; i++) {
-        const fw_member *e = &is->members[i];
-        fw_body         *b = e->body;
-        b->x = e->x0, b->y = e->y0, b->vx = e->v0[0], b->vy = e->v0[1], b->spin = e->v0[2];
-        b->ax = e->a[0][0], b->ay = e->a[0][1], b->as = e->a[0][2];
-        b->n_closed = e->n_closed;
-        k->member_of[e->index] = -1;
-        FW_CHECK(isfinite(b->x) && isfinite(b->y) && isfinite(b->spin), m, FW_E_NUMERIC,
-                 "the state of floe %llu is not finite at t = %.6g s", (unsigned long long)b->name, is->t);
-    }
-    for (size_t q = 0; q < is->n_pairs; q++) {
-        const fw_pair *p = &is->pairs[q];
-        if (!p->is_closed) continue;
-        FW_TRY(fw_grow(&k->contacts, &k->contacts_capacity, *n_contacts + 1, sizeof *k->contacts, "contacts", m));
-        k->contacts[(*n_contacts)++] = (fw_contact){.i = is->members[p->a].index,
-                                                    .j = p->b == FW_WALL ? FW_WALL : is->members[p->b].index,
-                                                    .law = p->law,
-                                                    .t_touch = p->t_touch,
-                                                    .depth = p->depth[0],
-                                                    .rate = p->rate[0],
-                                                    .slip = p->slip[0],
-                                                    .normal = p->normal[0],
-                                                    .friction = p->friction[0],
-                                                    .nx = p->dir[0][0],
-                                                    .ny = p->dir[0][1]};
-    }
-    return FW_OK;
-}
-
-/* The acceleration that was kept is that of the last stage; drag is what the contacts leave of it. Evaluating it anew would
- * differ by the solver's tolerance, and the momentum books would show it. */
-static void split_accelerations(fw_island *is)
-{
-    for (size_t i = 0; i < is->n_members; i++) {
-        fw_member *e = &is->members[i];
-        e->drag[0][0] = e->a[0][0], e->drag[0][1] = e->a[0][1];
-    }
-    for (size_t q = 0; q < is->n_pairs; q++) {
-        const fw_pair *p = &is->pairs[q];
-        if (!p->is_closed) continue;
-        double     fx = p->normal[0] * p->dir[0][0] - p->friction[0] * p->dir[0][1];
-        double     fy = p->normal[0] * p->dir[0][1] + p->friction[0] * p->dir[0][0];
-        fw_member *a = &is->members[p->a];
-        a->drag[0][0] -= fx * a->body->inv_mass, a->drag[0][1] -= fy * a->body->inv_mass;
+    *first = k->n_clusters;
+    FW_TRY(fw_grow(&k->root, &k->root_capacity, c->n_members + 1, sizeof *k->root, "clusters", m));
+    for (size_t i = 0; i < c->n_members; i++) k->root[i] = (int32_t)i;
+    for (size_t q = 0; q < c->n_pairs; q++) {
+        const fw_pair *p = &c->pairs[q];
         if (p->b == FW_WALL) continue;
-        fw_member *b = &is->members[p->b];
-        b->drag[0][0] += fx * b->body->inv_mass, b->drag[0][1] += fy * b->body->inv_mass;
+        int32_t a = find_root(k->root, p->a), b = find_root(k->root, p->b);
+        k->root[a < b ? b : a] = a < b ? a : b;
     }
+    bool is_whole = true;
+    for (size_t i = 0; i < c->n_members; i++) is_whole &= find_root(k->root, (int32_t)i) == 0 && c->members[i].n_pairs > 0;
+    if (is_whole) return FW_OK;
+    for (size_t r = 0; r < c->n_members; r++) {
+        if (k->root[r] != (int32_t)r) continue;
+        if (c->members[r].n_pairs == 0) {
+            k->traffic.seats[c->members[r].index].cluster = NULL;
+            continue;
+        }
+        fw_cluster *part;
+        FW_TRY(new_cluster(k, c->t0, &part, m));
+        part->h = c->h, part->is_kept = c->is_kept;
+        for (size_t i = 0; i < c->n_members; i++) {
+            if (find_root(k->root, (int32_t)i) != (int32_t)r) continue;
+            FW_TRY(fw_grow(&part->members, &part->member_capacity, part->n_members + 1, sizeof *part->members, "clusters", m));
+            part->members[part->n_members] = c->members[i];
+            k->traffic.seats[c->members[i].index].member = (int32_t)part->n_members++;
+        }
+        for (size_t q = 0; q < c->n_pairs; q++) {
+            fw_pair p = c->pairs[q];
+            if (find_root(k->root, p.a) != (int32_t)r) continue;
+            FW_TRY(fw_grow(&part->pairs, &part->pair_capacity, part->n_pairs + 1, sizeof *part->pairs, "clusters", m));
+            p.a = k->traffic.seats[c->members[p.a].index].member;
+            if (p.b != FW_WALL) p.b = k->traffic.seats[c->members[p.b].index].member;
+            part->pairs[part->n_pairs++] = p;
+            part->omega = fw_larger(part->omega, p.law.omega);
+        }
+    }
+    for (size_t i = *first; i < k->n_clusters; i++) seat_members(k, k->clusters[i]);
+    c->n_members = c->n_pairs = 0;
+    retire(k, c);
+    --*first;
+    return FW_OK;
 }
 
-static fw_status run_islands(fw_kernel *k, fw_world *w, fw_wear *wear, size_t n_links, double t_end, size_t *n_contacts,
-                             fw_msg *m)
+/* How far a cluster's next step may go. One that has come to the end tries on beyond it: it is not committed in this call. */
+static double step_limit(const fw_kernel *k, const fw_cluster *c, double t_end)
 {
-    const fw_setup *s = &k->setup;
-    for (size_t from = 0, to; from < n_links; from = to) {
-        size_t n_members = 0;
-        for (to = from; to < n_links && k->links[to].root == k->links[from].root; to++)
-            load_pair(k, w, &k->links[to], &k->pairs[to - from], &n_members);
-        fw_island is = {.setup = s,
-                        .t = w->t,
-                        .n_members = n_members,
-                        .n_pairs = to - from,
-                        .members = k->members,
-                        .pairs = k->pairs,
-                        .closed = k->closed,
-                        .held = k->held,
-                        .ledger = &w->ledger,
-                        .wear = wear,
-                        .structure_radius = s->structure_radius};
-        for (size_t q = 0; q < is.n_pairs; q++) is.n_closed += is.pairs[q].is_closed;
-        split_accelerations(&is);
-        FW_TRY(fw_island_advance(&is, t_end, m));
-        w->n_touched += is.n_touched;
-        FW_TRY(save_island(k, &is, n_contacts, m));
+    double limit = c->is_kept && c->t0 < k->traffic.until ? fw_smaller(t_end, k->traffic.until) : t_end;
+    return c->t0 < limit ? limit : INFINITY;
+}
+
+/* The cluster has a new path: who leaves its line, who touches whom? */
+static fw_status look_ahead(fw_kernel *k, fw_cluster *c, fw_msg *m)
+{
+    for (size_t i = 0; i < c->n_members; i++) FW_TRY(fw_traffic_follow(&k->traffic, c->members[i].index, m));
+    for (size_t i = 0; i < c->n_members; i++) fw_traffic_check_body(&k->traffic, c->members[i].index);
+    return FW_OK;
+}
+
+/* After a change of cluster c at its t0: the parts try their next steps, then everybody looks ahead. freed: members of old. */
+static fw_status go_on(fw_kernel *k, fw_cluster *c, double t_end, bool may_fall_apart, fw_msg *m)
+{
+    if (!may_fall_apart) {
+        FW_TRY(fw_cluster_try(c, &k->traffic.books, step_limit(k, c, t_end), m));
+        return look_ahead(k, c, m);
+    }
+    size_t first, n = c->n_members;
+    FW_TRY(fw_grow(&k->new_name, &k->name_capacity, n + 1, sizeof *k->new_name, "clusters", m));
+    for (size_t i = 0; i < n; i++) k->new_name[i] = c->members[i].index;
+    FW_TRY(fall_apart(k, c, &first, m));
+    if (c->n_members) return go_on(k, c, t_end, false, m);
+    for (size_t i = first; i < k->n_clusters; i++)
+        FW_TRY(fw_cluster_try(k->clusters[i], &k->traffic.books, step_limit(k, k->clusters[i], t_end), m));
+    for (size_t i = 0; i < n; i++) FW_TRY(fw_traffic_follow(&k->traffic, k->new_name[i], m));
+    for (size_t i = 0; i < n; i++) fw_traffic_check_body(&k->traffic, k->new_name[i]);
+    return FW_OK;
+}
+
+/* --- events ----------------------------------------------------------------------------------------------------------- */
+
+static fw_status commit(fw_kernel *k, fw_cluster *c, bool *has_opened, fw_msg *m)
+{
+    size_t n_opened = 0;
+    FW_TRY(fw_grow(&k->opened, &k->opened_capacity, c->n_pairs + 1, sizeof *k->opened, "clusters", m));
+    FW_TRY(fw_cluster_commit(c, &k->traffic.books, k->opened, &n_opened, m));
+    for (size_t i = 0; i < n_opened; i++) {
+        if (k->opened[i] < 0) continue;
+        fw_candidate *e = &k->traffic.candidates[k->opened[i]];
+        e->is_closed = false, e->clear = c->t0;
+    }
+    *has_opened |= n_opened > 0;
+    return FW_OK;
+}
+
+static fw_status end_step(fw_kernel *k, fw_cluster *c, double t_end, fw_msg *m)
+{
+    bool has_opened = false;
+    k->traffic.now = c->t1;
+    FW_TRY(commit(k, c, &has_opened, m));
+    return go_on(k, c, t_end, has_opened, m);
+}
+
+static void fly_to(fw_kernel *k, int32_t i, double t)
+{
+    fw_body *b = &k->traffic.world->bodies[i];
+    if (b->t == t) return;
+    fw_path  p = fw_path_of_flying(&k->traffic.setup, b);
+    fw_place at = fw_path_at(&p, t);
+    k->traffic.world->ledger.drag_work +=
+        0.5 * (at.vx * at.vx + at.vy * at.vy - b->vx * b->vx - b->vy * b->vy) / b->inv_mass;
+    b->x = at.x, b->y = at.y, b->vx = at.vx, b->vy = at.vy, b->t = t;
+}
+
+/* Untouched floe of candidate c -> awake body, where it is now. */
+static fw_status wake(fw_kernel *k, int32_t c, fw_msg *m)
+{
+    fw_traffic  *t = &k->traffic;
+    fw_world    *w = t->world;
+    fw_candidate e = t->candidates[c];
+    FW_TRY(fw_wake(&t->setup, w, (size_t)e.block, (size_t)e.row, m));
+    int32_t j = (int32_t)w->n_bodies - 1;
+    FW_TRY(fw_grow(&t->seats, &t->seat_capacity, w->n_bodies + 1, sizeof *t->seats, "candidates", m));
+    fw_body *b = &w->bodies[j];
+    b->x += t->setup.speed * (t->now - b->t);
+    b->t = t->now;
+    /* no margin: it leaves this line at once and is listed then */
+    t->seats[j] = (fw_seat){.first = -1, .t = b->t, .x = b->x, .y = b->y, .vx = b->vx, .margin = -1};
+    k->n_seated = w->n_bodies;
+    fw_traffic_woken(t, c, j);
+    /* What it may push lies where no ice has been made yet: list anew before going on. */
+    if (b->x - b->radius - ice_margin(k, w) < k->ice_from) t->until = t->now;
+    return FW_OK;
+}
+
+/* Is the tried step of a cluster so short that it stands at t already? */
+static bool stands_at(const fw_cluster *c, double t) { return (t - c->t0) * c->omega < 1e-9; }
+
+/* Bring clusters a and b (either may be NULL) to t; false: an error estimate made one of them stop earlier. */
+static fw_status land(fw_kernel *k, fw_cluster *a, fw_cluster *b, double t, bool *is_there, fw_msg *m)
+{
+    fw_cluster *both[2] = {a, b == a ? NULL : b};
+    *is_there = true;
+    for (int i = 0; i < 2; i++) {
+        fw_cluster *c = both[i];
+        if (!c || stands_at(c, t) || c->t1 == t) continue;
+        FW_TRY(fw_cluster_land(c, &k->traffic.books, t, m));
+        *is_there &= c->t1 == t;
     }
     return FW_OK;
 }
 
-/* Floes that nobody can reach: closed form. An undisturbed one drifts with the water exactly. */
-static void fly_alone(fw_kernel *k, fw_world *w, size_t n_links, double dt)
+static double pair_omega(const fw_kernel *k, const fw_candidate *e)
 {
-    bool *is_linked = k->is_gone; /* free until forget() */
-    memset(is_linked, 0, w->n_bodies * sizeof *is_linked);
-    for (size_t q = 0; q < n_links; q++) {
-        is_linked[k->links[q].i] = true;
-        if (k->links[q].j >= 0) is_linked[k->links[q].j] = true;
+    const fw_world *w = k->traffic.world;
+    double          inv = w->bodies[e->i].inv_mass;
+    if (e->j >= 0) {
+        inv += w->bodies[e->j].inv_mass;
+    } else if (e->j == FW_ICE) {
+        const fw_block *b = &w->blocks[e->block];
+        double          r = b->radius[e->row];
+        inv += 1 / (k->traffic.setup.ice_density * 3.14159265358979323846 * r * r * b->thickness[e->row]);
     }
-    for (size_t i = 0; i < w->n_bodies; i++) {
-        if (is_linked[i]) continue;
-        fw_body  *b = &w->bodies[i];
-        fw_member e = {.body = b, .x0 = b->x, .y0 = b->y, .v0 = {b->vx, b->vy, b->spin}};
-        fw_touch_fly(&k->setup, &e, dt, &b->x, &b->y, e.v1);
-        double gained = 0.5 * (e.v1[0] * e.v1[0] + e.v1[1] * e.v1[1] - b->vx * b->vx - b->vy * b->vy) / b->inv_mass;
-        w->ledger.drag_work += gained;
-        b->vx = e.v1[0], b->vy = e.v1[1];
+    return sqrt(k->traffic.setup.contact.stiffness * inv);
+}
+
+/* A gap g left at the touch is a force k g that is not there (or too early): w g in velocity within 1/w. It is compared with the
+ * closing speed, and with what a step may be wrong anyway: rims that come together at less than that cannot be landed any better. */
+static double acceptable_gap(const fw_kernel *k, const fw_candidate *e, double closing)
+{
+    const fw_setup *s = &k->traffic.setup;
+    double          v = fw_larger(s->landing * closing, 0.3 * s->tolerance * s->velocity_scale);
+    return fw_larger(v / pair_omega(k, e), 1e-12 * k->traffic.world->bodies[e->i].radius);
+}
+
+/* Where the clusters of a candidate's floes stand at the touch. A step that was cut is another step than the one its cubic came from, so
+ * the touch moves a little: Newton, each time with both steps tried again. */
+static fw_status locate(fw_kernel *k, int32_t c, fw_cluster *a, fw_cluster *b, double *t, double *closing, bool *is_touch,
+                        fw_msg *m)
+{
+    double last = *t, latest = fw_smaller(a ? a->t1 : INFINITY, b ? b->t1 : INFINITY);
+    *is_touch = false;
+    for (int n = 0; n < MAX_LANDINGS; n++) {
+        const fw_candidate *e = &k->traffic.candidates[c];
+        double              gap;
+        bool                is_there;
+        FW_TRY(land(k, a, b, *t, &is_there, m));
+        if (!is_there) return FW_OK;
+        fw_path p = fw_traffic_path(&k->traffic, e->i), q = fw_traffic_path_of_other(&k->traffic, e);
+        fw_path_gap(&p, &q, *t, &gap, closing);
+        double small = acceptable_gap(k, e, *closing), earliest = k->traffic.now;
+        if (gap > small && !(*closing > 0)) return FW_OK;
+        if (fabs(gap) <= small || (gap <= 0 && (*t <= earliest || !(*closing > 0)))) {
+            if (gap < -1e3 * small && gap < -1e-9) k->traffic.world->ledger.late_touches++;
+            *is_touch = true;
+            return FW_OK;
+        }
+        double next = fw_larger(earliest, *t + gap / *closing);
+        if (next > latest) return FW_OK; /* the step as cut now does not lead there: it ends here, and all look again */
+        if (next == last && gap <= 0) {
+            *is_touch = true;
+            return FW_OK;
+        }
+        last = *t, *t = next;
+    }
+    *is_touch = true; /* to and fro within rounding */
+    return FW_OK;
+}
+
+static fw_status seat_of(fw_kernel *k, fw_cluster *c, int32_t body, int32_t *member, fw_msg *m)
+{
+    fw_seat *s = &k->traffic.seats[body];
+    if (s->cluster != c) {
+        fly_to(k, body, c->t0);
+        FW_TRY(fw_cluster_join(c, &k->traffic.books, body, member, m));
+        s->cluster = c, s->member = *member;
+    }
+    *member = s->member;
+    return FW_OK;
+}
+
+static fw_status close_candidate(fw_kernel *k, fw_cluster *c, int32_t name, double closing, fw_msg *m)
+{
+    fw_candidate e = k->traffic.candidates[name];
+    int32_t      a, b = FW_WALL;
+    FW_TRY(seat_of(k, c, e.i, &a, m));
+    if (e.j >= 0) FW_TRY(seat_of(k, c, e.j, &b, m));
+    FW_TRY(fw_cluster_close(c, &k->traffic.books, a, b, name, closing, m));
+    k->traffic.candidates[name].is_closed = true;
+    k->traffic.candidates[name].touch = INFINITY;
+    k->traffic.is_soonest_known = false;
+    return FW_OK;
+}
+
+/* Mirror images touch at the same instant, and rims laid against each other without closing speed touch as of now: waiting for the
+ * speed to grow takes slivers of steps without end. */
+static fw_status close_others(fw_kernel *k, fw_cluster *c, fw_msg *m)
+{
+    const fw_setup *set = &k->traffic.setup;
+    for (size_t i = 0; i < c->n_members; i++) {
+        int32_t body = c->members[i].index, next;
+        for (int32_t q = k->traffic.seats[body].first; q >= 0; q = next) {
+            const fw_candidate *e = &k->traffic.candidates[q];
+            next = fw_traffic_next(e, body);
+            if (e->is_closed || e->j == FW_ICE || (e->j >= 0 && (e->i != body || k->traffic.seats[e->j].cluster != c)))
+                continue;
+            const fw_member *a = &c->members[i], *b = e->j >= 0 ? &c->members[k->traffic.seats[e->j].member] : NULL;
+            double dx = b ? a->x0 - b->x0 : a->x0, dy = b ? a->y0 - b->y0 : a->y0, r = fw_length(dx, dy);
+            double ux = b ? a->v0[0] - b->v0[0] : a->v0[0], uy = b ? a->v0[1] - b->v0[1] : a->v0[1];
+            double gap = r - a->radius - (b ? b->radius : set->structure_radius), closing = -(dx * ux + dy * uy) / r;
+            bool   is_laid = fabs(gap) <= 1e-11 * a->radius && closing > -1e-9 * set->velocity_scale;
+            if (!is_laid && !(closing > 0 && fabs(gap) <= acceptable_gap(k, e, closing))) continue;
+            FW_TRY(close_candidate(k, c, q, closing, m));
+        }
+    }
+    return FW_OK;
+}
+
+static fw_status touch(fw_kernel *k, int32_t c, double t_end, fw_msg *m)
+{
+    fw_traffic         *t = &k->traffic;
+    const fw_candidate *e = &t->candidates[c];
+    fw_cluster         *a = t->seats[e->i].cluster, *b = e->j >= 0 ? t->seats[e->j].cluster : NULL;
+    double              at = e->touch, closing;
+    bool                is_touch, has_opened = false;
+    FW_TRY(locate(k, c, a, b, &at, &closing, &is_touch, m));
+    if (!is_touch) {
+        /* Steps were cut and paths have changed with them. */
+        if (a) FW_TRY(look_ahead(k, a, m));
+        if (b && b != a) FW_TRY(look_ahead(k, b, m));
+        if (a || b) return FW_OK;
+        t->now = at; /* two free floes graze each other: look again from here on */
+        fw_traffic_check(t, c);
+        return FW_OK;
+    }
+    t->now = at;
+    fw_cluster *both[2] = {a, b == a ? NULL : b};
+    for (int i = 0; i < 2; i++) {
+        if (!both[i]) continue;
+        if (stands_at(both[i], at))
+            both[i]->t0 = both[i]->t1 = at;
+        else
+            FW_TRY(commit(k, both[i], &has_opened, m));
+    }
+    if (t->candidates[c].j == FW_ICE) FW_TRY(wake(k, c, m));
+    if (!a && !b) FW_TRY(new_cluster(k, at, &a, m));
+    if (!a) a = b;
+    if (b && b != a) {
+        FW_TRY(fw_cluster_merge(a, b, m));
+        a->is_kept |= b->is_kept;
+        retire(k, b);
+        seat_members(k, a);
+    }
+    FW_TRY(close_candidate(k, a, c, closing, m));
+    FW_TRY(close_others(k, a, m));
+    fw_cluster_restart(a, &t->books);
+    return go_on(k, a, t_end, has_opened, m);
+}
+
+/* --- listing ---------------------------------------------------------------------------------------------------------- */
+
+/* Floes that the structure reaches before the next listing are awake: a candidate needs a body. */
+static fw_status wake_before_structure(fw_kernel *k, fw_msg *m)
+{
+    fw_traffic *t = &k->traffic;
+    fw_world   *w = t->world;
+    double      dt = t->until - t->now, X = -w->drift, u = t->setup.speed;
+    for (size_t q = 0; q < w->n_blocks; q++) {
+        fw_block *b = &w->blocks[q];
+        double    reach = t->setup.structure_radius + b->max_radius + 0.5 * u * dt, cx = X - 0.5 * u * dt;
+        if (b->n_left == 0 || cx + reach < b->x_min || cx - reach > b->x_max) continue;
+        for (size_t r = 0; r < b->n; r++) {
+            double dx = b->x[r] - X, limit = t->setup.structure_radius + b->radius[r];
+            if (b->is_taken[r] || fabs(b->y[r]) > limit || dx > limit || dx < -limit - u * dt ||
+                fabs(b->y[r]) > t->setup.half_width)
+                continue;
+            FW_TRY(fw_wake(&t->setup, w, q, r, m));
+        }
+    }
+    return FW_OK;
+}
+
+static fw_status export_contacts(fw_kernel *k, fw_msg *m)
+{
+    fw_world *w = k->traffic.world;
+    w->n_contacts = 0;
+    for (size_t i = 0; i < k->n_clusters; i++) {
+        const fw_cluster *c = k->clusters[i];
+        FW_TRY(fw_grow(&w->contacts, &w->contact_capacity, w->n_contacts + c->n_pairs + 1, sizeof *w->contacts, "contacts", m));
+        for (size_t q = 0; q < c->n_pairs; q++) {
+            const fw_pair *p = &c->pairs[q];
+            w->contacts[w->n_contacts++] =
+                (fw_contact){.i = c->members[p->a].index,
+                             .j = p->b == FW_WALL ? FW_WALL : c->members[p->b].index,
+                             .stiffness = p->law.k};
+        }
+    }
+    return FW_OK;
+}
+
+static bool is_past(const fw_kernel *k, int32_t i)
+{
+    const fw_body *b = &k->traffic.world->bodies[i];
+    fw_place       at = {.x = b->x, .y = b->y};
+    if ((size_t)i < k->n_seated && !k->traffic.seats[i].cluster) {
+        fw_path p = fw_path_of_flying(&k->traffic.setup, b);
+        at = fw_path_at(&p, k->traffic.now);
+    }
+    return at.x > k->traffic.setup.downstream && fw_length(at.x, at.y) > k->traffic.setup.structure_radius + b->radius;
+}
+
+/* Members that are gone leave the cluster, with their contacts. */
+static void leave(fw_kernel *k, fw_cluster *c)
+{
+    size_t kept = 0, kept_pairs = 0;
+    for (size_t q = 0; q < c->n_pairs; q++) {
+        fw_pair *p = &c->pairs[q];
+        bool     is_lost = k->is_gone[c->members[p->a].index] || (p->b != FW_WALL && k->is_gone[c->members[p->b].index]);
+        if (!is_lost) {
+            c->pairs[kept_pairs++] = *p;
+            continue;
+        }
+        c->members[p->a].n_pairs--;
+        if (p->b != FW_WALL) c->members[p->b].n_pairs--;
+    }
+    c->n_pairs = kept_pairs;
+    for (size_t i = 0; i < c->n_members; i++) {
+        k->root[i] = (int32_t)kept;
+        if (!k->is_gone[c->members[i].index]) c->members[kept++] = c->members[i];
+    }
+    c->n_members = kept;
+    for (size_t q = 0; q < c->n_pairs; q++) {
+        fw_pair *p = &c->pairs[q];
+        p->a = k->root[p->a];
+        if (p->b != FW_WALL) p->b = k->root[p->b];
     }
 }
 
-static void forget(fw_kernel *k, fw_world *w)
+/* Floes far downstream are forgotten: free ones, whole clusters, and single members of a cluster that stands at this very
+ * instant (others keep their steps short until the next listing, so that they do then). */
+static fw_status forget(fw_kernel *k, fw_msg *m)
 {
-    const fw_setup *s = &k->setup;
-    bool            any = false;
+    fw_traffic *t = &k->traffic;
+    fw_world   *w = t->world;
+    bool        any = false;
+    FW_TRY(fw_grow(&k->is_gone, &k->gone_capacity, w->n_bodies + 1, sizeof *k->is_gone, "clusters", m));
+    FW_TRY(fw_grow(&k->new_name, &k->name_capacity, w->n_bodies + 1, sizeof *k->new_name, "clusters", m));
+    FW_TRY(fw_grow(&k->root, &k->root_capacity, w->n_bodies + 1, sizeof *k->root, "clusters", m));
     for (size_t i = 0; i < w->n_bodies; i++) {
-        const fw_body *b = &w->bodies[i];
-        k->is_gone[i] = b->x > s->downstream && fw_length(b->x, b->y) > s->structure_radius + b->radius;
+        k->is_gone[i] = is_past(k, (int32_t)i);
         any |= k->is_gone[i];
     }
-    if (!any) return;
+    if (!any) return FW_OK;
+    any = false;
+    for (size_t q = 0; q < k->n_clusters; q++) {
+        fw_cluster *c = k->clusters[q];
+        size_t      n_gone = 0;
+        for (size_t i = 0; i < c->n_members; i++) n_gone += k->is_gone[c->members[i].index];
+        bool is_all = n_gone == c->n_members, is_now = c->t0 == t->now;
+        c->is_kept = n_gone > 0 && !is_all && !is_now;
+        if (!is_all && !is_now)
+            for (size_t i = 0; i < c->n_members; i++) k->is_gone[c->members[i].index] = false;
+    }
+    for (size_t i = 0; i < w->n_bodies; i++) any |= k->is_gone[i];
+    if (!any) return FW_OK;
+
+    FW_TRY(export_contacts(k, m));
+    for (size_t q = k->n_clusters; q-- > 0;) {
+        fw_cluster *c = k->clusters[q];
+        size_t      n = c->n_members;
+        leave(k, c);
+        if (c->n_members == n) continue;
+        if (c->n_members == 0) {
+            retire(k, c);
+            continue;
+        }
+        seat_members(k, c);
+        fw_cluster_restart(c, &t->books); /* forces are gone, so the accelerations that were kept are stale */
+        c->h = INFINITY;
+    }
+    int32_t next = 0;
+    for (size_t i = 0; i < w->n_bodies; i++) {
+        k->new_name[i] = next;
+        if (!k->is_gone[i] && i < k->n_seated) t->seats[next++] = t->seats[i];
+    }
     fw_world_forget(w, k->is_gone);
-    k->neighbours.is_valid = false;
+    k->n_seated = w->n_bodies;
+    for (size_t q = 0; q < k->n_clusters; q++)
+        for (size_t i = 0; i < k->clusters[q]->n_members; i++) {
+            fw_member *e = &k->clusters[q]->members[i];
+            e->index = k->new_name[e->index];
+        }
+    /* Those that lost a member may have fallen apart; their parts try their steps when all is listed. */
+    for (size_t q = k->n_clusters; q-- > 0;) {
+        size_t first;
+        if (k->clusters[q]->t1 == k->clusters[q]->t0) FW_TRY(fall_apart(k, k->clusters[q], &first, m));
+    }
+    return FW_OK;
+}
+
+static fw_status list(fw_kernel *k, double t_end, fw_msg *m)
+{
+    fw_traffic *t = &k->traffic;
+    fw_world   *w = t->world;
+    t->now = w->t, t->until = w->t + k->horizon;
+    k->ice_from = fw_kernel_needs_ice_from(k, w) + 2 * w->max_radius;
+    FW_TRY(forget(k, m));
+    FW_TRY(wake_before_structure(k, m));
+    FW_TRY(fw_grow(&t->seats, &t->seat_capacity, w->n_bodies + 1, sizeof *t->seats, "candidates", m));
+    for (; k->n_seated < w->n_bodies; k->n_seated++) t->seats[k->n_seated] = (fw_seat){.first = -1};
+    for (size_t q = 0; q < k->n_clusters; q++) {
+        fw_cluster *c = k->clusters[q];
+        if (c->t1 == c->t0) FW_TRY(fw_cluster_try(c, &t->books, step_limit(k, c, t_end), m));
+    }
+    FW_TRY(fw_traffic_list(t, m));
+    for (size_t q = 0; q < k->n_clusters; q++) {
+        fw_cluster *c = k->clusters[q];
+        for (size_t i = 0; i < c->n_pairs; i++) {
+            fw_pair *p = &c->pairs[i];
+            int32_t  a = c->members[p->a].index, b = p->b == FW_WALL ? FW_WALL : c->members[p->b].index;
+            p->candidate = fw_traffic_find(t, a, b);
+            FW_CHECK(p->candidate >= 0, m, FW_E_INTERNAL, "a contact of floe %llu is not among its candidates",
+                     (unsigned long long)w->bodies[a].name);
+            t->candidates[p->candidate].is_closed = true;
+        }
+    }
+    for (size_t c = 0; c < t->n_candidates; c++) fw_traffic_check(t, (int32_t)c);
+    return FW_OK;
+}
+
+/* --- time ------------------------------------------------------------------------------------------------------------- */
+
+static fw_cluster *first_to_end(const fw_kernel *k)
+{
+    fw_cluster *first = NULL;
+    for (size_t i = 0; i < k->n_clusters; i++)
+        if (!first || k->clusters[i]->t1 < first->t1) first = k->clusters[i];
+    return first;
 }
 
 fw_status fw_kernel_step(fw_kernel *k, fw_world *w, fw_wear *wear, double t_end, fw_msg *m)
 {
-    const fw_setup *s = &k->setup;
-    /* No sliver of a step at the end: an acceleration from a velocity difference over 1e-13 s is rounding noise. */
-    bool            is_last = t_end - w->t <= k->macro_time * (1 + 1e-6);
-    double          dt = is_last ? t_end - w->t : k->macro_time, t1 = is_last ? t_end : w->t + dt;
-    bool            is_changed = fw_neighbours_is_stale(&k->neighbours, s, w, k->macro_time);
-    do {
-        if (is_changed) FW_TRY(fw_neighbours_list(&k->neighbours, s, w, m));
-        FW_TRY(fw_grow(&k->stirred_at, &k->stirred_capacity, w->n_bodies + 1, sizeof *k->stirred_at, "islands", m));
-        FW_TRY(fw_grow(&k->way, &k->way_capacity, w->n_bodies + 1, sizeof *k->way, "islands", m));
-        stir(k, w, dt);
-        FW_TRY(wake_near(k, w, dt, &is_changed, m));
-    } while (is_changed);
-
-    FW_TRY(fw_grow(&k->root, &k->root_capacity, w->n_bodies + 1, sizeof *k->root, "islands", m));
-    FW_TRY(fw_grow(&k->is_gone, &k->gone_capacity, w->n_bodies + 1, sizeof *k->is_gone, "islands", m));
-    FW_TRY(fw_grow(&k->member_of, &k->member_capacity, w->n_bodies + 1, sizeof *k->member_of, "islands", m));
-    FW_TRY(fw_grow(&k->members, &k->members_capacity, w->n_bodies + 1, sizeof *k->members, "islands", m));
-    for (size_t i = 0; i < w->n_bodies; i++) k->member_of[i] = -1;
-    size_t n_links, n_contacts = 0;
-    FW_TRY(find_links(k, w, dt, &n_links, m));
-    FW_TRY(fw_grow(&k->pairs, &k->pairs_capacity, n_links + 1, sizeof *k->pairs, "islands", m));
-    FW_TRY(fw_grow(&k->closed, &k->closed_capacity, n_links + 1, sizeof *k->closed, "islands", m));
-    FW_TRY(fw_grow(&k->held, &k->held_capacity, w->n_bodies + 1, sizeof *k->held, "islands", m));
-    fly_alone(k, w, n_links, dt);
-    FW_TRY(run_islands(k, w, wear, n_links, t1, &n_contacts, m));
-    FW_TRY(fw_grow(&w->contacts, &w->contact_capacity, n_contacts + 1, sizeof *w->contacts, "contacts", m));
-    if (n_contacts > 1) qsort(k->contacts, n_contacts, sizeof *k->contacts, contact_order);
-    if (n_contacts) memcpy(w->contacts, k->contacts, n_contacts * sizeof *w->contacts);
-    w->n_contacts = n_contacts;
-    w->t = t1;
-    w->drift += s->speed * dt;
+    fw_traffic     *t = &k->traffic;
+    const fw_setup *s = &t->setup;
+    t->world = w;
+    t->books = (fw_books){s, w, wear};
+    for (size_t i = 0; i < k->n_clusters; i++) /* steps tried when the end lay further away */
+        if (k->clusters[i]->t1 > t_end) {
+            FW_TRY(fw_cluster_land(k->clusters[i], &t->books, t_end, m));
+            t->is_listed = false;
+        }
+    if (!t->is_listed || t->blocks_listed != w->block_changes || !(w->t < t->until)) FW_TRY(list(k, t_end, m));
+    for (;;) {
+        double      until = fw_smaller(t_end, t->until);
+        fw_cluster *c = first_to_end(k);
+        int32_t     e = fw_traffic_soonest(t);
+        double      touches = e < 0 ? INFINITY : t->candidates[e].touch, ends = c ? c->t1 : INFINITY;
+        if (touches <= ends && touches <= until)
+            FW_TRY(touch(k, e, t_end, m));
+        else if (ends <= until)
+            FW_TRY(end_step(k, c, t_end, m));
+        else
+            break;
+        FW_CHECK(w->ledger.force_evaluations <= s->max_evaluations, m, FW_E_LIMIT,
+                 "more than %.3g force evaluations at t = %.6g s", s->max_evaluations, t->now);
+    }
+    double until = fw_smaller(t_end, t->until);
+    w->drift += s->speed * (until - w->t);
+    w->t = t->now = until;
     w->ledger.macro_steps++;
-    forget(k, w);
-    FW_CHECK(w->ledger.force_evaluations <= s->max_evaluations, m, FW_E_LIMIT,
-             "more than %.3g force evaluations at t = %.6g s", s->max_evaluations, w->t);
-    return FW_OK;
+    if (until < t_end) return FW_OK;
+    for (size_t i = 0; i < w->n_bodies; i++)
+        if (!t->seats[i].cluster) fly_to(k, (int32_t)i, until);
+    return export_contacts(k, m);
 }

@@ -1,9 +1,11 @@
 /* The kernel: moves the awake floes of a world through time.
  *
- *   macro-step:  near pairs -> islands (floes that can touch within it) -> each island on its own:
- *                no contact closed: closed-form flight to the next touch
- *                else:              ESDIRK sub-steps with error control for floes in contact, closed form for the others,
- *                                   each step cut where the next touch is
+ *   untouched ice      drifts in its blocks, costs nothing, wakes when it is touched
+ *   a floe in no contact  flies by the closed form of its drag until somebody touches it
+ *   a cluster          floes joined by contacts: ESDIRK steps with error control, at its own pace
+ *   a touch            is located, because the force jumps there by c d': a step across the jump is first order
+ *
+ * Events are worked in the order of time (kernel.c); a cluster's step is tried ahead and cut when somebody comes in.
  *
  * What is fixed during a run is fw_setup, what changes is fw_world and fw_wear. */
 #ifndef FW_KERNEL_KERNEL_H
@@ -28,8 +30,11 @@ typedef struct fw_setup {
     double           first_step;      /* after a touch, in 1/w */
     double           growth;          /* largest factor from one sub-step to the next */
     double           max_step;        /* in 1/w of the stiffest closed contact; INFINITY: none */
-    double           macro_length;    /* way of the current in one macro-step [m] */
-    double           skin;            /* neighbours are listed up to this gap [m] */
+    double           solver_share;    /* of the tolerance: what the sweeps of a stage may leave */
+    double           landing;         /* a touch is located to this share of closing rate / w [m] */
+    double           horizon;         /* way of the current between two listings of who may touch whom [m] */
+    double           margin;          /* a floe in contact is listed anew when it is this far off its line [m] */
+    double           skin;            /* of the plain method: neighbours are listed up to this gap [m] */
     double           half_width;      /* of the strip: untouched floes outside are not there; INFINITY: all */
     double           downstream;      /* floes past this x are forgotten [m]; INFINITY: none */
     double           max_evaluations; /* force evaluations allowed; INFINITY: no limit */
@@ -40,7 +45,8 @@ typedef struct fw_kernel fw_kernel;
 fw_status fw_kernel_create(fw_kernel **out, const fw_setup *setup, fw_msg *m);
 void      fw_kernel_destroy(fw_kernel *k);
 
-/* One macro-step, at most to t_end. The caller has put enough untouched ice into the world: up to
+/* To the next listing, at most to t_end; there (and only there) all floes stand at the same instant, w->t. t_end is where the caller
+ * wants them to: no step passes it. The caller has put enough untouched ice into the world: up to
  * fw_kernel_needs_ice_from (kernel frame). Errors: FW_E_NUMERIC (non-finite state, floe inside the structure, step
  * limit) naming floe and time; FW_E_LIMIT; FW_E_NOMEM. */
 fw_status fw_kernel_step(fw_kernel *k, fw_world *w, fw_wear *wear, double t_end, fw_msg *m);

@@ -41,9 +41,8 @@ fw_status fw_world_add_body(fw_world *w, const fw_body *proto, fw_msg *m)
     FW_TRY(fw_grow(&w->bodies, &w->body_capacity, w->n_bodies + 1, sizeof *w->bodies, "awake floes", m));
     fw_body *b = &w->bodies[w->n_bodies++];
     *b = *proto;
-    b->ax = b->ay = b->as = b->step = 0;
+    b->t = w->t;
     b->t_wall = b->t_hit = -INFINITY;
-    b->n_closed = 0;
     b->is_touched = false;
     b->x_listed = b->x - w->drift, b->y_listed = b->y;
     w->max_radius = fmax(w->max_radius, b->radius);
@@ -95,7 +94,7 @@ void fw_world_drop_blocks_beyond(fw_world *w, double x)
 static double stored(const fw_world *w, const fw_contact *c)
 {
     double d = fw_world_overlap(w, c->i, c->j);
-    return d > 0 ? 0.5 * c->law.k * d * d : 0;
+    return d > 0 ? 0.5 * c->stiffness * d * d : 0;
 }
 
 void fw_world_forget(fw_world *w, const bool *is_gone)
@@ -106,9 +105,6 @@ void fw_world_forget(fw_world *w, const bool *is_gone)
         fw_contact c = w->contacts[k];
         if (is_gone[c.i] || (c.j >= 0 && is_gone[c.j])) {
             w->ledger.outflow += stored(w, &c);
-            /* step = 0: the force is gone, so the acceleration that was kept is stale */
-            w->bodies[c.i].n_closed--, w->bodies[c.i].step = 0;
-            if (c.j >= 0) w->bodies[c.j].n_closed--, w->bodies[c.j].step = 0;
         } else {
             w->contacts[kept++] = c;
         }

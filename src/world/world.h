@@ -17,26 +17,21 @@
 enum { FW_WALL = -1 };
 
 typedef struct fw_body {
+    double   t;                     /* instant that the state belongs to [s]; a kernel may be ahead of some floes */
     double   x, y, vx, vy, spin;    /* [m], [m/s], [rad/s] anticlockwise */
-    double   ax, ay, as;            /* acceleration now; kept only while a contact is closed */
     double   radius, thickness;     /* [m] */
     double   inv_mass, inv_inertia; /* [1/kg], [1/(kg m2)]; inv_inertia = 0 locks rotation */
     double   drag;                  /* 1/2 rho_w Cf D h [kg/m] */
-    double   step;                  /* sub-step that served last [s]; 0: none yet, or ax, ay, as are stale */
     double   t_wall;                /* last instant with the structure contact closed; -INFINITY: never */
     double   t_hit;                 /* first touch of the present visit to the structure */
     double   x_listed, y_listed;    /* where it was when neighbours were last listed, in the ice frame */
     uint64_t name;                  /* for messages and for the order of sums */
-    uint32_t n_closed;              /* closed contacts */
     bool     is_touched;            /* ever */
 } fw_body;
 
 typedef struct fw_contact {
-    int32_t              i, j; /* i < j, or j = FW_WALL */
-    fw_contact_constants law;
-    double               t_touch;               /* when it closed [s] */
-    double depth, rate, slip, normal, friction; /* now: overlap [m], closing rate, slip [m/s], forces [N] */
-    double nx, ny;                              /* from j (or the structure) to i */
+    int32_t i, j;      /* i < j, or j = FW_WALL */
+    double  stiffness; /* [N/m] */
 } fw_contact;
 
 /* Rows of ice that nothing has touched, in the ice frame. */
@@ -56,7 +51,7 @@ typedef struct fw_world {
     size_t      n_bodies, body_capacity;
     fw_body    *bodies;
     size_t      n_contacts, contact_capacity;
-    fw_contact *contacts; /* closed ones, ordered by (i, j) with the structure's contact of i last */
+    fw_contact *contacts; /* closed ones, as the kernel last told them: where all floes stand at w->t */
     size_t      n_blocks, block_capacity;
     fw_block   *blocks;
     uint64_t    block_changes; /* blocks added or dropped so far: block numbers kept from before a change are stale */

@@ -22,8 +22,10 @@ static fw_setup setup(void)
                       .first_step = 0.05,
                       .growth = 3,
                       .max_step = INFINITY,
-                      .macro_length = 0.2,
-                      .skin = 1,
+                      .solver_share = 1e-3,
+                      .landing = 1e-4,
+                      .horizon = 2,
+                      .margin = 0.3,
                       .half_width = 50,
                       .downstream = INFINITY,
                       .max_evaluations = INFINITY};

@@ -1,0 +1,263 @@
+/* One cluster: its step control, and how it grows and shrinks.
+ *
+ * Steps start short after a touch (the force jumps there by c d') and grow as the error allows; a floe that rolls along the
+ * structure goes on in steps of half a second. A step ends where a floe lets go of the structure: slip is fast and pressure
+ * small there, and path and contact time need the kink. */
+#include "kernel/cluster.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+enum { MAX_RELEASES = 2 };
+static const double SHORTEST = 1e-9; /* steps below this, in 1/w, are taken whatever their error */
+
+void fw_cluster_free(fw_cluster *c)
+{
+    if (!c) return;
+    free(c->members);
+    free(c->pairs);
+    free(c);
+}
+
+static void find_stiffest(fw_cluster *c)
+{
+    c->omega = 0;
+    for (size_t k = 0; k < c->n_pairs; k++) c->omega = fw_larger(c->omega, c->pairs[k].law.omega);
+}
+
+fw_status fw_cluster_join(fw_cluster *c, const fw_books *books, int32_t body, int32_t *member, fw_msg *m)
+{
+    FW_TRY(fw_grow(&c->members, &c->member_capacity, c->n_members + 1, sizeof *c->members, "clusters", m));
+    const fw_body *b = &books->world->bodies[body];
+    fw_member     *e = &c->members[c->n_members];
+    *e = (fw_member){.index = body,
+                     .radius = b->radius,
+                     .turn = b->radius * b->inv_inertia,
+                     .drag_per_mass = b->drag * b->inv_mass,
+                     .own_inv_mass = b->inv_mass,
+                     .inv_inertia = b->inv_inertia,
+                     .x0 = b->x,
+                     .y0 = b->y,
+                     .v0 = {b->vx, b->vy, b->spin}};
+    *member = (int32_t)c->n_members++;
+    return FW_OK;
+}
+
+fw_status fw_cluster_merge(fw_cluster *into, fw_cluster *from, fw_msg *m)
+{
+    size_t n = into->n_members + from->n_members, n_pairs = into->n_pairs + from->n_pairs;
+    FW_TRY(fw_grow(&into->members, &into->member_capacity, n, sizeof *into->members, "clusters", m));
+    FW_TRY(fw_grow(&into->pairs, &into->pair_capacity, n_pairs + 1, sizeof *into->pairs, "clusters", m));
+    memcpy(into->members + into->n_members, from->members, from->n_members * sizeof *into->members);
+    for (size_t k = 0; k < from->n_pairs; k++) {
+        fw_pair *p = &into->pairs[into->n_pairs + k];
+        *p = from->pairs[k];
+        p->a += (int32_t)into->n_members;
+        if (p->b != FW_WALL) p->b += (int32_t)into->n_members;
+    }
+    into->h = fw_smaller(into->h, from->h);
+    into->omega = fw_larger(into->omega, from->omega);
+    into->n_members = n, into->n_pairs = n_pairs;
+    from->n_members = from->n_pairs = 0;
+    return FW_OK;
+}
+
+static void mark_touched(const fw_books *books, fw_member *e)
+{
+    fw_body *b = &books->world->bodies[e->index];
+    e->n_pairs++;
+    books->world->n_touched += !b->is_touched;
+    b->is_touched = true;
+}
+
+fw_status fw_cluster_close(fw_cluster *c, const fw_books *books, int32_t a, int32_t other, int32_t candidate, double rate,
+                           fw_msg *m)
+{
+    const fw_setup *set = books->setup;
+    FW_TRY(fw_grow(&c->pairs, &c->pair_capacity, c->n_pairs + 1, sizeof *c->pairs, "clusters", m));
+    fw_member *ea = &c->members[a], *eb = other == FW_WALL ? NULL : &c->members[other];
+    fw_pair   *p = &c->pairs[c->n_pairs++];
+    *p = (fw_pair){.a = a, .b = other, .t_touch = c->t0, .candidate = candidate};
+    p->law = fw_contact_law_apply(&set->contact, 1 / (ea->own_inv_mass + (eb ? eb->own_inv_mass : 0)));
+    p->mu = p->law.mu;
+    c->omega = fw_larger(c->omega, p->law.omega);
+    mark_touched(books, ea);
+    if (eb) mark_touched(books, eb);
+    books->world->ledger.touches++;
+    /* A gentle touch is a small jump: the local error of a step h grows with the jump times h^2, so its first step may be
+     * longer. On the structure the pressure's start is wear, whatever the speed. */
+    double share = eb ? cbrt(set->velocity_scale / fw_larger(rate, 1e-3 * set->velocity_scale)) : 1;
+    c->h = fw_smaller(c->h, set->first_step / p->law.omega * share);
+    if (!eb) {
+        fw_body *b = &books->world->bodies[ea->index];
+        if (c->t0 - b->t_wall > 1) {
+            b->t_hit = c->t0;
+            if (books->wear->is_open) books->world->ledger.hits++;
+        }
+        b->t_wall = c->t0;
+    }
+    return FW_OK;
+}
+
+void fw_cluster_restart(fw_cluster *c, const fw_books *books)
+{
+    fw_stage_start(c, books);
+    c->t1 = c->t0;
+}
+
+/* One step h on trial: local error of velocity over what is tolerated. */
+static double attempt(fw_cluster *c, const fw_books *books, double h)
+{
+    const fw_setup  *set = books->setup;
+    const fw_method *me = set->method;
+    size_t           last = me->n_stages - 1;
+    for (size_t s = 1; s <= last; s++) fw_stage_solve(c, books, s, h);
+    double hg = h * me->gamma, worst = 0, inv = 1 / h;
+    for (size_t i = 0; i < c->n_members; i++) {
+        fw_member *m = &c->members[i];
+        m->x1 = m->xr + hg * m->v[last][0], m->y1 = m->yr + hg * m->v[last][1];
+        double e[3] = {0, 0, 0};
+        for (int q = 0; q < 3; q++) {
+            m->v1[q] = m->v[last][q];
+            for (size_t s = 0; s <= last; s++) e[q] += me->e[s] * m->a[s][q];
+        }
+        double err = h * fw_larger(fw_length(e[0], e[1]), m->radius * fabs(e[2]));
+        if (!(err <= worst)) worst = err; /* keeps NaN */
+        /* the cubic's velocity is a parabola: bounded by its control points v0, middle, v1 */
+        double mx = 3 * (m->x1 - m->x0) * inv - m->v0[0] - m->v1[0], my = 3 * (m->y1 - m->y0) * inv - m->v0[1] - m->v1[1];
+        m->fastest = fw_larger(fw_length(m->v0[0] - set->speed, m->v0[1]),
+                               fw_larger(fw_length(m->v1[0] - set->speed, m->v1[1]), fw_length(mx - set->speed, my)));
+    }
+    return worst / (set->tolerance * set->velocity_scale);
+}
+
+/* Where in the step just tried does a floe let go of the structure, as a share of it? 1: nowhere, or not worth a cut. */
+static double release(const fw_cluster *c, const fw_setup *set)
+{
+    const fw_method *me = set->method;
+    size_t           last = me->n_stages - 1;
+    double           first = 1;
+    for (size_t k = 0; k < c->n_pairs; k++) {
+        const fw_pair *p = &c->pairs[k];
+        if (p->b != FW_WALL) continue;
+        double from = fw_pair_signed_normal(p, 0), to = fw_pair_signed_normal(p, last);
+        if (to >= -0.2 * from || from <= set->tolerance * p->law.c * set->velocity_scale) continue;
+        /* the stages in between tell on which side of the chord the zero lies */
+        double u0 = 0, u1 = 1, f0 = from, f1 = to;
+        for (size_t s = 1; s < last; s++) {
+            double f = fw_pair_signed_normal(p, s);
+            if (f > 0 && me->c[s] > u0) u0 = me->c[s], f0 = f;
+        }
+        for (size_t s = 1; s < last; s++) {
+            double f = fw_pair_signed_normal(p, s);
+            if (f <= 0 && me->c[s] < u1 && me->c[s] > u0) u1 = me->c[s], f1 = f;
+        }
+        first = fw_smaller(first, u0 + (u1 - u0) * f0 / (f0 - f1));
+    }
+    return first;
+}
+
+static fw_status not_finite(const fw_cluster *c, const fw_books *books, fw_msg *msg)
+{
+    return fw_fail(msg, FW_E_NUMERIC, "the state of floe %llu is not finite at t = %.6g s",
+                   (unsigned long long)books->world->bodies[c->members[0].index].name, c->t0);
+}
+
+/* Shorter and shorter until the error is within the tolerance. */
+static fw_status attempt_until_good(fw_cluster *c, const fw_books *books, double *h, double *err, fw_msg *msg)
+{
+    const fw_method *me = books->setup->method;
+    for (;;) {
+        *err = attempt(c, books, *h);
+        if (*err <= 1 || *h * c->omega <= SHORTEST) break;
+        double f = isfinite(*err) ? fw_larger(0.2, 0.9 * pow(*err, -1.0 / me->error_order)) : 0.1;
+        *h *= fw_smaller(f, 0.9);
+        books->world->ledger.rejected++;
+    }
+    return isfinite(*err) ? FW_OK : not_finite(c, books, msg);
+}
+
+fw_status fw_cluster_try(fw_cluster *c, const fw_books *books, double limit, fw_msg *msg)
+{
+    const fw_setup *set = books->setup;
+    double          left = limit - c->t0;
+    if (!(c->h < INFINITY)) c->h = set->first_step / c->omega;
+    c->h = fw_smaller(c->h, set->max_step / c->omega);
+    /* No sliver at the end: two halves instead. */
+    double h = c->h >= left ? left : c->h > 0.5 * left ? 0.5 * left : c->h, wanted = c->h, tried = h, err;
+    FW_TRY(attempt_until_good(c, books, &h, &err, msg));
+    if (h < tried) wanted = h;
+    for (int n = 0; n < MAX_RELEASES && h * c->omega > 0.01; n++) {
+        double let_go = release(c, set);
+        if (!(let_go < 1)) break;
+        h *= fw_larger(let_go, 0.01);
+        FW_TRY(attempt_until_good(c, books, &h, &err, msg));
+    }
+    double f = err > 0 ? 0.9 * pow(err, -1.0 / set->method->error_order) : set->growth;
+    f = fw_smaller(set->growth, f);
+    c->h = h < wanted ? fw_larger(wanted, h * f) : h * f;
+    c->t1 = h == left ? limit : c->t0 + h;
+    return FW_OK;
+}
+
+fw_status fw_cluster_land(fw_cluster *c, const fw_books *books, double t, fw_msg *msg)
+{
+    double h = t - c->t0, err, tried = h;
+    FW_TRY(attempt_until_good(c, books, &h, &err, msg));
+    c->t1 = h == tried ? t : c->t0 + h;
+    return FW_OK;
+}
+
+static fw_status let_go(fw_cluster *c, const fw_books *books, int32_t *opened, size_t *n_opened, fw_msg *msg)
+{
+    size_t kept = 0, last = books->setup->method->n_stages - 1;
+    for (size_t k = 0; k < c->n_pairs; k++) {
+        fw_pair *p = &c->pairs[k];
+        if (p->b == FW_WALL) {
+            const fw_member *a = &c->members[p->a];
+            fw_body         *body = &books->world->bodies[a->index];
+            body->t_wall = c->t0;
+            FW_CHECK(fw_length(a->x0, a->y0) > books->setup->structure_radius, msg, FW_E_NUMERIC,
+                     "floe %llu (D %.3g m, h %.2g m) has its centre inside the structure at t = %.6g s",
+                     (unsigned long long)body->name, 2 * body->radius, body->thickness, c->t0);
+        }
+        if (p->depth[last] < 0 && p->normal[last] <= 0) {
+            opened[(*n_opened)++] = p->candidate;
+            c->members[p->a].n_pairs--;
+            if (p->b != FW_WALL) c->members[p->b].n_pairs--;
+            continue;
+        }
+        if (kept != k) c->pairs[kept] = *p;
+        p = &c->pairs[kept++];
+        p->normal[0] = p->normal[last], p->friction[0] = p->friction[last], p->slip[0] = p->slip[last];
+        p->rate[0] = p->rate[last], p->depth[0] = p->depth[last];
+        p->dir[0][0] = p->dir[last][0], p->dir[0][1] = p->dir[last][1];
+    }
+    if (kept == c->n_pairs) return FW_OK;
+    c->n_pairs = kept;
+    find_stiffest(c);
+    return FW_OK;
+}
+
+fw_status fw_cluster_commit(fw_cluster *c, const fw_books *books, int32_t *opened, size_t *n_opened, fw_msg *msg)
+{
+    size_t last = books->setup->method->n_stages - 1;
+    double h = c->t1 - c->t0;
+    fw_books_keep(c, books);
+    fw_books_wear(c, books);
+    books->world->ledger.steps++;
+    c->t0 = c->t1;
+    for (size_t k = 0; k < c->n_pairs; k++) c->pairs[k].since_touch += h;
+    for (size_t i = 0; i < c->n_members; i++) {
+        fw_member *m = &c->members[i];
+        fw_body   *b = &books->world->bodies[m->index];
+        b->t = c->t0;
+        b->x = m->x0 = m->x1, b->y = m->y0 = m->y1;
+        b->vx = m->v1[0], b->vy = m->v1[1], b->spin = m->v1[2];
+        for (int q = 0; q < 3; q++) m->v0[q] = m->v1[q], m->a[0][q] = m->a[last][q], m->v[0][q] = m->v[last][q];
+        m->drag[0][0] = m->drag[last][0], m->drag[0][1] = m->drag[last][1];
+    }
+    return let_go(c, books, opened, n_opened, msg);
+}

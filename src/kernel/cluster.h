@@ -1,0 +1,102 @@
+/* Inside the kernel only: a cluster is a set of floes held together by closed contacts, stepped at a pace of its own.
+ *
+ *   t0 ------------ step tried, accepted by its error, not yet committed ------------ t1
+ *   x0, v0, a[0]                    cubic between the two ends                       x1, v1
+ *
+ * A tried step may be cut at any instant in between: somebody may hit the cluster before t1. Books and wear are written when
+ * it is committed, once. */
+#ifndef FW_KERNEL_CLUSTER_H
+#define FW_KERNEL_CLUSTER_H
+
+#include <math.h>
+
+#include "kernel/kernel.h"
+
+/* A floe of the cluster. Stage arrays are (stage) x (x, y, rotation). */
+typedef struct fw_member {
+    /* what a sweep reads and writes lies together */
+    double V[3];     /* unknown stage velocity while it is solved for */
+    double inv_mass; /* of the stage: drag adds to inertia */
+    double radius;
+    double turn; /* radius x inv_inertia: spin per impulse along the rim */
+    /* the stage's equations */
+    double vr[3], xr, yr;             /* known part */
+    double X, Y, U[3];                /* predicted stage position and the velocity it was predicted with */
+    double resistance, ease;          /* 1 + hg drag_rate and its inverse */
+    double drag_rate, drag_per_mass;  /* drag x |u - v| / mass [1/s] that V was built with; drag / mass [1/m] */
+    double own_inv_mass, inv_inertia; /* of the floe */
+    /* the step */
+    double   x0, y0, v0[3];
+    double   x1, y1, v1[3];
+    double   fastest; /* bound of |v - u| over the tried step [m/s] */
+    double   a[FW_MAX_STAGES][3], v[FW_MAX_STAGES][3], drag[FW_MAX_STAGES][2];
+    double   gained[3], shoved; /* books' sums of one step: velocity from impulses, and their size without sign */
+    int32_t  index;             /* of the body in the world */
+    uint32_t n_pairs;
+} fw_member;
+
+/* A closed contact. b = FW_WALL: the structure. */
+typedef struct fw_pair {
+    int32_t a, b; /* members */
+    /* what a sweep reads and writes */
+    double nx, ny;           /* this stage, from b to a */
+    double alpha, beta;      /* N = max(0, alpha + beta closing rate) */
+    double to_push, to_rub;  /* impulses that a sweep answers with, per force without it and per slip */
+    double push, rub;        /* impulses of this stage [N s] */
+    double w_normal, w_slip; /* inverse effective masses */
+    double mu;
+    double               depth_star, rate_star;
+    fw_contact_constants law;
+    double               t_touch, since_touch;
+    double               normal[FW_MAX_STAGES], friction[FW_MAX_STAGES], slip[FW_MAX_STAGES], rate[FW_MAX_STAGES];
+    double               depth[FW_MAX_STAGES], dir[FW_MAX_STAGES][2];
+    int32_t              candidate; /* its entry in the lists of who may touch whom */
+} fw_pair;
+
+typedef struct fw_cluster {
+    double     t0, t1;  /* t1 == t0: no step tried yet */
+    double     h;       /* step to try next [s]; INFINITY: none known */
+    double     omega;   /* of the stiffest contact [1/s] */
+    bool       is_kept; /* steps may not pass the next listing: members are about to be forgotten */
+    size_t     n_members, member_capacity, n_pairs, pair_capacity;
+    fw_member *members;
+    fw_pair   *pairs;
+} fw_cluster;
+
+/* Where committed steps leave their traces. */
+typedef struct fw_books {
+    const fw_setup *setup;
+    fw_world       *world;
+    fw_wear        *wear;
+} fw_books;
+
+/* Comparisons instead of fmax and fmin: those are library calls, this is an instruction. NaN in b is dropped, as there. */
+static inline double fw_larger(double a, double b) { return b > a ? b : a; }
+static inline double fw_length(double x, double y) { return sqrt(x * x + y * y); } /* nothing here nears 1e150 */
+static inline double fw_smaller(double a, double b) { return b < a ? b : a; }
+
+/* stage.c */
+void fw_stage_start(fw_cluster *c, const fw_books *b);           /* accelerations at t0, from forces */
+void fw_stage_solve(fw_cluster *c, const fw_books *b, size_t s, double h); /* stage s of a step h */
+
+/* cluster.c */
+fw_status fw_cluster_join(fw_cluster *c, const fw_books *b, int32_t body, int32_t *member, fw_msg *m); /* at its state */
+fw_status fw_cluster_merge(fw_cluster *into, fw_cluster *from, fw_msg *m); /* from is empty afterwards */
+/* New contact of members a and b (or the structure) at t0. Steps start anew: call fw_cluster_restart afterwards. */
+fw_status fw_cluster_close(fw_cluster *c, const fw_books *b, int32_t a, int32_t other, int32_t candidate, double rate,
+                           fw_msg *m);
+void      fw_cluster_restart(fw_cluster *c, const fw_books *b);
+/* A step from t0 whose error is within the tolerance, at most to limit. FW_E_NUMERIC: the state is not finite. */
+fw_status fw_cluster_try(fw_cluster *c, const fw_books *b, double limit, fw_msg *m);
+/* The same to t exactly if its error allows; else to an earlier instant (c->t1 says). */
+fw_status fw_cluster_land(fw_cluster *c, const fw_books *b, double t, fw_msg *m);
+/* The tried step becomes truth: books, wear, bodies. Contacts that let go are taken out; opened lists their candidates. */
+fw_status fw_cluster_commit(fw_cluster *c, const fw_books *b, int32_t *opened, size_t *n_opened, fw_msg *m);
+void      fw_cluster_free(fw_cluster *c);
+
+/* books.c: of the tried step */
+void fw_books_keep(const fw_cluster *c, const fw_books *b);
+void fw_books_wear(const fw_cluster *c, const fw_books *b);
+static inline double fw_pair_signed_normal(const fw_pair *p, size_t s) { return p->law.k * p->depth[s] + p->law.c * p->rate[s]; }
+
+#endif

@@ -1,0 +1,291 @@
+#include "kernel/traffic.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+
+void fw_traffic_free(fw_traffic *t)
+{
+    free(t->candidates);
+    free(t->seats);
+    free(t->edges);
+}
+
+fw_path fw_traffic_path(const fw_traffic *t, int32_t body)
+{
+    const fw_seat *s = &t->seats[body];
+    return s->cluster ? fw_path_of_member(&t->setup, s->cluster, &s->cluster->members[s->member])
+                      : fw_path_of_flying(&t->setup, &t->world->bodies[body]);
+}
+
+fw_path fw_traffic_path_of_other(const fw_traffic *t, const fw_candidate *c)
+{
+    if (c->j >= 0) return fw_traffic_path(t, c->j);
+    if (c->j == FW_WALL) return fw_path_of_structure(&t->setup);
+    const fw_block *b = &t->world->blocks[c->block];
+    return fw_path_of_drifting(&t->setup, t->world->t, b->x[c->row] + t->world->drift, b->y[c->row], b->radius[c->row]);
+}
+
+/* --- lines ---------------------------------------------------------------------------------------------------------- */
+
+/* A free floe is given the chord of its flight; how far the flight bulges from it is known. A member of a cluster is given its
+ * velocity of the moment and a margin: most are pinned or slide slowly. */
+static void draw_line(fw_traffic *t, int32_t i)
+{
+    fw_seat *s = &t->seats[i];
+    fw_path  p = fw_traffic_path(t, i);
+    fw_place at = fw_path_at(&p, t->now);
+    double   dt = t->until - t->now;
+    s->t = t->now, s->x = at.x, s->y = at.y, s->vx = at.vx, s->vy = at.vy;
+    s->margin = t->setup.margin;
+    if (p.kind != FW_PATH_FLIES || !(dt > 0)) return;
+    fw_place end = fw_path_at(&p, t->until);
+    double   r = fw_length(at.vx - p.speed, at.vy);
+    double   way = fw_length(end.x - at.x - p.speed * dt, end.y - at.y);
+    s->vx = (end.x - at.x) / dt, s->vy = (end.y - at.y) / dt;
+    s->margin = 0;
+    if (p.K > 0 && way > 0) {
+        double mean = way / dt, most = (r / mean - 1) / (p.K * r); /* when the flight is as fast as its chord */
+        s->margin = fw_larger(0, log1p(p.K * r * most) / p.K - mean * most);
+    }
+}
+
+/* Least distance of two points on lines, apart by (x, y) now and moving by (u, v), within dt; squared. */
+static double nearest2(double x, double y, double u, double v, double dt)
+{
+    double w2 = u * u + v * v, s = w2 > 0 ? -(x * u + y * v) / w2 : 0;
+    s = s > 0 ? fw_smaller(s, dt) : 0;
+    x += s * u, y += s * v;
+    return x * x + y * y;
+}
+
+static double line_x(const fw_traffic *t, const fw_seat *s) { return s->x + s->vx * (t->now - s->t); }
+static double line_y(const fw_traffic *t, const fw_seat *s) { return s->y + s->vy * (t->now - s->t); }
+
+static bool lines_meet(const fw_traffic *t, int32_t i, int32_t j)
+{
+    const fw_seat *a = &t->seats[i], *b = &t->seats[j];
+    const fw_body *bodies = t->world->bodies;
+    double         limit = bodies[i].radius + bodies[j].radius + a->margin + b->margin;
+    return nearest2(line_x(t, a) - line_x(t, b), line_y(t, a) - line_y(t, b), a->vx - b->vx, a->vy - b->vy,
+                    t->until - t->now) < limit * limit;
+}
+
+/* --- candidates ------------------------------------------------------------------------------------------------------ */
+
+static fw_status add(fw_traffic *t, int32_t i, int32_t j, int32_t block, int32_t row, fw_msg *m)
+{
+    FW_TRY(fw_grow(&t->candidates, &t->candidate_capacity, t->n_candidates + 1, sizeof *t->candidates, "candidates", m));
+    int32_t name = (int32_t)t->n_candidates++;
+    t->candidates[name] = (fw_candidate){.i = i,
+                                         .j = j,
+                                         .next_i = t->seats[i].first,
+                                         .next_j = j >= 0 ? t->seats[j].first : -1,
+                                         .block = block,
+                                         .row = row,
+                                         .touch = INFINITY,
+                                         .clear = t->now};
+    t->seats[i].first = name;
+    if (j >= 0) t->seats[j].first = name;
+    return FW_OK;
+}
+
+int32_t fw_traffic_find(const fw_traffic *t, int32_t i, int32_t j)
+{
+    for (int32_t c = t->seats[i].first; c >= 0; c = fw_traffic_next(&t->candidates[c], i)) {
+        const fw_candidate *e = &t->candidates[c];
+        if ((e->i == i && e->j == j) || (e->j == i && e->i == j)) return c;
+    }
+    return -1;
+}
+
+static bool has_ice(const fw_traffic *t, int32_t i, int32_t block, int32_t row)
+{
+    for (int32_t c = t->seats[i].first; c >= 0; c = fw_traffic_next(&t->candidates[c], i)) {
+        const fw_candidate *e = &t->candidates[c];
+        if (e->j == FW_ICE && e->i == i && e->block == block && e->row == row) return true;
+    }
+    return false;
+}
+
+/* Untouched floes that come within reach of a disc (x, y, radius) that moves by (vx, vy); found in the frame of the ice, where they
+ * stand still. i = FW_WALL: each of them becomes awake, since a candidate needs a body. */
+static fw_status add_ice(fw_traffic *t, int32_t i, double x, double y, double vx, double vy, double radius, bool is_new,
+                         fw_msg *m)
+{
+    const fw_world *w = t->world;
+    double dt = t->until - t->now, u = vx - t->setup.speed, drift = w->drift + t->setup.speed * (t->now - w->t);
+    double X = x - drift, cx = X + 0.5 * u * dt, cy = y + 0.5 * vy * dt, half = 0.5 * dt * fw_larger(fabs(u), fabs(vy));
+    for (size_t k = 0; k < w->n_blocks; k++) {
+        const fw_block *b = &w->blocks[k];
+        double          reach = half + radius + b->max_radius;
+        if (b->n_left == 0 || cx + reach < b->x_min || cx - reach > b->x_max) continue;
+        size_t ix0, ix1, iy0, iy1;
+        fw_cells_range(&b->cells, cx, cy, reach, &ix0, &ix1, &iy0, &iy1);
+        for (size_t iy = iy0; iy < iy1; iy++)
+            for (size_t q = b->cells.start[iy * b->cells.nx + ix0]; ix0 < ix1 && q < b->cells.start[iy * b->cells.nx + ix1];
+                 q++) {
+                size_t r = b->cells.item[q];
+                double limit = radius + b->radius[r];
+                if (b->is_taken[r] || nearest2(X - b->x[r], y - b->y[r], u, vy, dt) >= limit * limit ||
+                    fabs(b->y[r]) > t->setup.half_width)
+                    continue;
+                if (is_new || !has_ice(t, i, (int32_t)k, (int32_t)r)) FW_TRY(add(t, i, FW_ICE, (int32_t)k, (int32_t)r, m));
+            }
+    }
+    return FW_OK;
+}
+
+static fw_status add_structure_and_ice(fw_traffic *t, int32_t i, bool is_new, fw_msg *m)
+{
+    const fw_seat *s = &t->seats[i];
+    double         r = t->world->bodies[i].radius + s->margin, x = line_x(t, s), y = line_y(t, s);
+    double         limit = r + t->setup.structure_radius;
+    if (nearest2(x, y, s->vx, s->vy, t->until - t->now) < limit * limit && (is_new || fw_traffic_find(t, i, FW_WALL) < 0))
+        FW_TRY(add(t, i, FW_WALL, -1, -1, m));
+    return t->setup.has_floe_contact ? add_ice(t, i, x, y, s->vx, s->vy, r, is_new, m) : FW_OK;
+}
+
+static int by_left_edge(const void *x, const void *y)
+{
+    const struct fw_edge *a = x, *b = y;
+    if (a->left != b->left) return a->left < b->left ? -1 : 1;
+    return (a->body > b->body) - (a->body < b->body);
+}
+
+fw_status fw_traffic_list(fw_traffic *t, fw_msg *m)
+{
+    fw_world *w = t->world;
+    double    dt = t->until - t->now;
+    size_t    n = w->n_bodies;
+    w->ledger.rebuilds++;
+    t->n_candidates = 0;
+    t->soonest = -1, t->is_soonest_known = true;
+    t->is_listed = true, t->blocks_listed = w->block_changes;
+    FW_TRY(fw_grow(&t->edges, &t->edge_capacity, n + 1, sizeof *t->edges, "candidates", m));
+    for (size_t i = 0; i < n; i++) {
+        draw_line(t, (int32_t)i);
+        fw_seat *s = &t->seats[i];
+        double   r = w->bodies[i].radius + s->margin;
+        s->first = -1;
+        t->edges[i] = (struct fw_edge){fw_smaller(s->x, s->x + s->vx * dt) - r, fw_larger(s->x, s->x + s->vx * dt) + r,
+                                       (int32_t)i};
+    }
+    if (n > 1) qsort(t->edges, n, sizeof *t->edges, by_left_edge);
+    for (size_t a = 0; t->setup.has_floe_contact && a < n; a++)
+        for (size_t b = a + 1; b < n && t->edges[b].left < t->edges[a].right; b++) {
+            int32_t i = t->edges[a].body, j = t->edges[b].body;
+            if (lines_meet(t, i, j)) FW_TRY(add(t, i < j ? i : j, i < j ? j : i, -1, -1, m));
+        }
+    for (size_t i = 0; i < n; i++) FW_TRY(add_structure_and_ice(t, (int32_t)i, true, m));
+    return FW_OK;
+}
+
+fw_status fw_traffic_list_body(fw_traffic *t, int32_t i, fw_msg *m)
+{
+    draw_line(t, i);
+    for (size_t j = 0; t->setup.has_floe_contact && j < t->world->n_bodies; j++)
+        if ((int32_t)j != i && lines_meet(t, i, (int32_t)j) && fw_traffic_find(t, i, (int32_t)j) < 0)
+            FW_TRY(add(t, i, (int32_t)j, -1, -1, m));
+    return add_structure_and_ice(t, i, false, m);
+}
+
+fw_status fw_traffic_follow(fw_traffic *t, int32_t i, fw_msg *m)
+{
+    const fw_seat *s = &t->seats[i];
+    fw_path        p = fw_traffic_path(t, i);
+    double         at = p.kind == FW_PATH_CUBIC ? fw_smaller(p.t0 + p.h, t->until) : t->until;
+    fw_place       q = fw_path_at(&p, at);
+    double         off = fw_length(q.x - s->x - s->vx * (at - s->t), q.y - s->y - s->vy * (at - s->t));
+    /* A free floe stays within its line's margin only when that was drawn for this very flight: it is drawn anew. */
+    if (p.kind == FW_PATH_CUBIC && off <= s->margin) return FW_OK;
+    return fw_traffic_list_body(t, i, m);
+}
+
+void fw_traffic_woken(fw_traffic *t, int32_t c, int32_t j)
+{
+    int32_t block = t->candidates[c].block, row = t->candidates[c].row;
+    for (size_t k = 0; k < t->n_candidates; k++) {
+        fw_candidate *e = &t->candidates[k];
+        if (e->j != FW_ICE || e->block != block || e->row != row) continue;
+        e->j = j;
+        e->next_j = t->seats[j].first;
+        t->seats[j].first = (int32_t)k;
+    }
+}
+
+/* --- touches --------------------------------------------------------------------------------------------------------- */
+
+static void set_touch(fw_traffic *t, int32_t c, double touch)
+{
+    fw_candidate *e = &t->candidates[c];
+    e->touch = touch;
+    if (!t->is_soonest_known) return;
+    if (t->soonest == c)
+        t->is_soonest_known = false;
+    else if (touch < (t->soonest < 0 ? INFINITY : t->candidates[t->soonest].touch))
+        t->soonest = c;
+}
+
+int32_t fw_traffic_soonest(fw_traffic *t)
+{
+    if (t->is_soonest_known) return t->soonest;
+    double first = INFINITY;
+    t->soonest = -1;
+    for (size_t c = 0; c < t->n_candidates; c++)
+        if (t->candidates[c].touch < first) first = t->candidates[c].touch, t->soonest = (int32_t)c;
+    t->is_soonest_known = true;
+    return t->soonest;
+}
+
+static double known_until(const fw_traffic *t, int32_t body)
+{
+    const fw_cluster *c = t->seats[body].cluster;
+    return c ? c->t1 : INFINITY;
+}
+
+static double fastest(const fw_traffic *t, int32_t body)
+{
+    const fw_seat *s = &t->seats[body];
+    if (s->cluster) return s->cluster->members[s->member].fastest;
+    const fw_body *b = &t->world->bodies[body];
+    return fw_length(b->vx - t->setup.speed, b->vy);
+}
+
+void fw_traffic_check(fw_traffic *t, int32_t c)
+{
+    fw_candidate *e = &t->candidates[c];
+    if (e->is_closed) return;
+    double until = fw_smaller(t->until, known_until(t, e->i)), speed = fastest(t, e->i), bound = t->swift;
+    bool   is_swift = speed > t->swift;
+    if (e->j >= 0) {
+        double other = fastest(t, e->j);
+        until = fw_smaller(until, known_until(t, e->j));
+        is_swift |= other > t->swift;
+        speed += other, bound += t->swift;
+    } else if (e->j == FW_WALL) {
+        speed += t->setup.speed, bound += t->setup.speed;
+    }
+    double touch = INFINITY;
+    if (until > t->now && (is_swift || until > e->clear)) {
+        fw_path a = fw_traffic_path(t, e->i), b = fw_traffic_path_of_other(t, e);
+        double  gap, closing;
+        fw_path_gap(&a, &b, t->now, &gap, &closing);
+        e->clear = t->now + (gap > 0 ? gap / bound : 0);
+        if (!(gap > speed * (until - t->now))) touch = fw_path_touch(&a, &b, t->now, until);
+    }
+    if (touch != e->touch) set_touch(t, c, touch);
+}
+
+void fw_traffic_check_body(fw_traffic *t, int32_t i)
+{
+    const fw_cluster *own = t->seats[i].cluster;
+    for (int32_t c = t->seats[i].first; c >= 0;) {
+        const fw_candidate *e = &t->candidates[c];
+        int32_t             next = fw_traffic_next(e, i);
+        bool                is_twice = own && e->j == i && t->seats[e->i].cluster == own; /* its partner checks it */
+        if (!is_twice) fw_traffic_check(t, c);
+        c = next;
+    }
+}
