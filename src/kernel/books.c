@@ -110,6 +110,12 @@ void fw_books_wear(const fw_cluster *c, const fw_books *books)
         iv.n_stages = me->n_stages;
         for (size_t s = 0; s < me->n_stages; s++)
             iv.at[s] = me->c[s], iv.normal[s] = fw_pair_signed_normal(p, s), iv.slip[s] = p->slip[s];
+        /* A step that goes on long after the floe let go: between its stages the force's polynomial would bulge. */
+        if (iv.normal[0] > 0 && iv.normal[last] < -iv.normal[0]) {
+            double fades = fw_cluster_fades_in(c, p), force = iv.normal[0];
+            if (fades < iv.length)
+                for (size_t s = 0; s <= last; s++) iv.normal[s] = force * (1 - me->c[s] * iv.length / fades);
+        }
         iv.radius = a->radius, iv.thickness = body->thickness;
         fw_wear_collect(books->wear, &iv);
     }

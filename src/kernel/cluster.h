@@ -88,11 +88,16 @@ fw_status fw_cluster_close(fw_cluster *c, const fw_books *b, int32_t a, int32_t 
 void      fw_cluster_restart(fw_cluster *c, const fw_books *b);
 /* A step from t0 whose error is within the tolerance, at most to limit. FW_E_NUMERIC: the state is not finite. */
 fw_status fw_cluster_try(fw_cluster *c, const fw_books *b, double limit, fw_msg *m);
-/* The same to t exactly if its error allows; else to an earlier instant (c->t1 says). */
+/* The same, cut to end at t exactly, t0 < t < t1. A part of a step whose error was tolerable is taken whatever its own estimate says: ending
+ * earlier would leave a gap that others have passed already. */
 fw_status fw_cluster_land(fw_cluster *c, const fw_books *b, double t, fw_msg *m);
 /* The tried step becomes truth: books, wear, bodies. Contacts that let go are taken out; opened lists their candidates. */
 fw_status fw_cluster_commit(fw_cluster *c, const fw_books *b, int32_t *opened, size_t *n_opened, fw_msg *m);
 void      fw_cluster_free(fw_cluster *c);
+
+/* When the force of the structure on a floe vanishes at its present slope, after t0 [s]; INFINITY: it does not fall. It falls almost
+ * linearly as the current carries a floe round the structure. */
+double fw_cluster_fades_in(const fw_cluster *c, const fw_pair *p);
 
 /* books.c: of the tried step */
 void fw_books_keep(const fw_cluster *c, const fw_books *b);

@@ -258,16 +258,13 @@ static fw_status wake(fw_kernel *k, int32_t c, fw_msg *m)
 /* Is the tried step of a cluster so short that it stands at t already? */
 static bool stands_at(const fw_cluster *c, double t) { return (t - c->t0) * c->omega < 1e-9; }
 
-/* Bring clusters a and b (either may be NULL) to t; false: an error estimate made one of them stop earlier. */
-static fw_status land(fw_kernel *k, fw_cluster *a, fw_cluster *b, double t, bool *is_there, fw_msg *m)
+/* Bring clusters a and b (either may be NULL) to t. */
+static fw_status land(fw_kernel *k, fw_cluster *a, fw_cluster *b, double t, fw_msg *m)
 {
     fw_cluster *both[2] = {a, b == a ? NULL : b};
-    *is_there = true;
     for (int i = 0; i < 2; i++) {
         fw_cluster *c = both[i];
-        if (!c || stands_at(c, t) || c->t1 == t) continue;
-        FW_TRY(fw_cluster_land(c, &k->traffic.books, t, m));
-        *is_there &= c->t1 == t;
+        if (c && !stands_at(c, t) && c->t1 != t) FW_TRY(fw_cluster_land(c, &k->traffic.books, t, m));
     }
     return FW_OK;
 }
@@ -305,9 +302,7 @@ static fw_status locate(fw_kernel *k, int32_t c, fw_cluster *a, fw_cluster *b, d
     for (int n = 0; n < MAX_LANDINGS; n++) {
         const fw_candidate *e = &k->traffic.candidates[c];
         double              gap;
-        bool                is_there;
-        FW_TRY(land(k, a, b, *t, &is_there, m));
-        if (!is_there) return FW_OK;
+        FW_TRY(land(k, a, b, *t, m));
         fw_path p = fw_traffic_path(&k->traffic, e->i), q = fw_traffic_path_of_other(&k->traffic, e);
         fw_path_gap(&p, &q, *t, &gap, closing);
         double small = acceptable_gap(k, e, *closing), earliest = k->traffic.now;
@@ -580,9 +575,9 @@ static fw_status list(fw_kernel *k, double t_end, fw_msg *m)
         for (size_t i = 0; i < c->n_pairs; i++) {
             fw_pair *p = &c->pairs[i];
             int32_t  a = c->members[p->a].index, b = p->b == FW_WALL ? FW_WALL : c->members[p->b].index;
+            /* Rims that part within the step that is on trial may be out of each other's reach already. */
             p->candidate = fw_traffic_find(t, a, b);
-            FW_CHECK(p->candidate >= 0, m, FW_E_INTERNAL, "a contact of floe %llu is not among its candidates",
-                     (unsigned long long)w->bodies[a].name);
+            if (p->candidate < 0) FW_TRY(fw_traffic_add(t, a, b, &p->candidate, m));
             t->candidates[p->candidate].is_closed = true;
         }
     }

@@ -100,6 +100,12 @@ int32_t fw_traffic_find(const fw_traffic *t, int32_t i, int32_t j)
     return -1;
 }
 
+fw_status fw_traffic_add(fw_traffic *t, int32_t i, int32_t j, int32_t *name, fw_msg *m)
+{
+    *name = (int32_t)t->n_candidates;
+    return add(t, i, j, -1, -1, m);
+}
+
 static bool has_ice(const fw_traffic *t, int32_t i, int32_t block, int32_t row)
 {
     for (int32_t c = t->seats[i].first; c >= 0; c = fw_traffic_next(&t->candidates[c], i)) {

@@ -68,6 +68,8 @@ void    fw_traffic_check_body(fw_traffic *t, int32_t i); /* all its candidates; 
 int32_t fw_traffic_soonest(fw_traffic *t);               /* -1: nobody touches as far as is known */
 int32_t fw_traffic_find(const fw_traffic *t, int32_t i, int32_t j); /* -1: no such candidate */
 
+fw_status fw_traffic_add(fw_traffic *t, int32_t i, int32_t j, int32_t *name, fw_msg *m); /* whatever their lines say */
+
 static inline int32_t fw_traffic_next(const fw_candidate *c, int32_t body) { return c->i == body ? c->next_i : c->next_j; }
 
 #endif
