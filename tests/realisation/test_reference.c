@@ -1,60 +1,6 @@
 /* All reference solutions (tests/reference/README.md; independent of this code) at every accuracy a user may ask for: depth
  * within the accuracy, impulse, peak and final positions within the levels below, the energy balance within the accuracy. */
-#include <stdlib.h>
-#include <string.h>
-
-#include "check.h"
-#include "floewear/realisation.h"
-
-enum { MAX_COLUMNS = 32, MAX_ROWS = 32 };
-
-typedef struct table {
-    char   line[MAX_ROWS][1024];
-    char  *field[MAX_ROWS][MAX_COLUMNS];
-    size_t n_rows, n_columns;
-} table;
-
-static void read_table(table *t, const char *name)
-{
-    char path[512];
-    snprintf(path, sizeof path, "%s/tests/reference/%s", FW_SOURCE_DIR, name);
-    FILE *f = fopen(path, "r");
-    if (!f) fail_msg("cannot read %s", path);
-    memset(t, 0, sizeof *t);
-    while (t->n_rows < MAX_ROWS && fgets(t->line[t->n_rows], sizeof t->line[0], f)) {
-        char *p = t->line[t->n_rows];
-        p[strcspn(p, "\r\n")] = 0;
-        size_t c = 0;
-        for (char *q = p; c < MAX_COLUMNS; q = NULL) {
-            t->field[t->n_rows][c++] = p;
-            q = strchr(p, ',');
-            if (!q) break;
-            *q = 0, p = q + 1;
-        }
-        if (t->n_rows == 0) t->n_columns = c;
-        t->n_rows++;
-    }
-    fclose(f);
-    assert_true(t->n_rows > 2);
-}
-
-static const char *text(const table *t, size_t row, const char *column)
-{
-    for (size_t c = 0; c < t->n_columns; c++)
-        if (strcmp(t->field[0][c], column) == 0) return t->field[row][c] ? t->field[row][c] : "";
-    fail_msg("no column %s", column);
-    return "";
-}
-
-static double value(const table *t, size_t row, const char *column) { return strtod(text(t, row, column), NULL); }
-
-static fw_scene scene_of(fw_floe *floes, size_t n, double duration, double accuracy)
-{
-    fw_scene s = {.speed = 2, .temperature = -10, .duration = duration, .n_floes = n, .floes = floes};
-    fw_model_defaults(&s.model);
-    s.model.accuracy = accuracy;
-    return s;
-}
+#include "realisation/reference_table.h"
 
 static double ring_sum(const fw_scene *s, const fw_scene_result *r)
 {
@@ -101,14 +47,13 @@ static void single_floes(const char *file, const level *to)
     double evaluations = 0;
     for (size_t row = 1; row < t->n_rows; row++) {
         const char *outcome = text(t, row, "outcome");
-        double      D = value(t, row, "D"), y0 = value(t, row, "y0"), reach = 3.7 + D / 2, gap = 0.3;
         bool        is_miss = strcmp(outcome, "miss") == 0, is_pinned = strncmp(outcome, "pinned", 6) == 0;
-        double      x0 = is_miss ? -8 : -(sqrt(reach * reach - y0 * y0) + gap); /* touches gap / u after the start */
-        fw_floe     f = {.x = x0, .y = y0, .diameter = D, .thickness = value(t, row, "h"), .vx = 2};
+        fw_floe     f = single_floe_of(t, row);
+        double      t_touch = REFERENCE_GAP / f.vx; /* the file counts from there */
         double      stay = is_pinned ? 60 : is_miss ? 10 : value(t, row, "t_release") + 1;
-        fw_scene    s = scene_of(&f, 1, stay + gap / 2, to->accuracy);
+        fw_scene    s = scene_of(&f, 1, t_touch + stay, to->accuracy);
         char        name[64];
-        snprintf(name, sizeof name, "%s: case %s, offset %g m", file, text(t, row, "case"), y0);
+        snprintf(name, sizeof name, "%s: case %s, offset %g m", file, text(t, row, "case"), f.y);
         fw_scene_result r;
         run(&s, &r, name);
         evaluations += r.record.force_evaluations;
@@ -130,7 +75,7 @@ static void single_floes(const char *file, const level *to)
                 CHECK_RELATIVE(ring_sum(&s, &r), r.depth_x_wall, 1e-10);
                 CHECK_NEAR(fabs(r.floes[0].spin), value(t, row, "spin_exit"), to->position); /* the file has sizes */
                 double exit_angle = value(t, row, "exit_deg") * 3.14159265358979323846 / 180;
-                check_exit(f, value(t, row, "t_release") + gap / 2, exit_angle, to, name);
+                check_exit(f, t_touch + value(t, row, "t_release"), exit_angle, to, name);
             }
         }
         fw_scene_result_free(&r);
@@ -147,16 +92,7 @@ static void several_floes(const char *file, const level *to)
     for (size_t row = 1, n; row < t->n_rows; row += n) {
         const char *name = text(t, row, "scene");
         fw_floe     f[8];
-        for (n = 0; row + n < t->n_rows && strcmp(text(t, row + n, "scene"), name) == 0; n++) {
-            size_t k = row + n;
-            f[n] = (fw_floe){.x = value(t, k, "x0"),
-                             .y = value(t, k, "y0"),
-                             .diameter = value(t, k, "D"),
-                             .thickness = value(t, k, "h"),
-                             .vx = value(t, k, "vx0"),
-                             .vy = value(t, k, "vy0"),
-                             .spin = value(t, k, "spin0")};
-        }
+        n = floes_of(t, row, f);
         fw_scene        s = scene_of(f, n, value(t, row, "t_end"), to->accuracy);
         fw_scene_result r;
         run(&s, &r, name);
