@@ -76,6 +76,7 @@ typedef struct fw_numerics {
     double       step;       /* of a fixed-step scheme [s] */
     int          order;      /* of the event-driven kernel's integrator, 2, 3 or 4; 0: chosen */
     double       tolerance;  /* local error of velocity over the current's speed [-]; 0: chosen */
+    double       wear_tolerance; /* error of a step's wear over the wear of its touch so far [-]; 0: chosen */
     double       first_step; /* after a touch [1/w]; 0: chosen */
     double       growth;     /* largest factor from one step to the next; 0: chosen */
 } fw_numerics;

@@ -10,8 +10,8 @@
 
 #include "base/memory.h"
 
-enum { MAX_KINKS = 2 };
-static const double KINK_AT_END = 0.98; /* share of a step past which a kink counts as its end */
+enum { MAX_RELEASES = 2 };
+static const double RELEASE_AT_END = 0.98; /* share of a step past which a release counts as its end */
 static const double SHORTEST = 1e-9; /* steps below this, in 1/w, are taken whatever their error */
 
 void fw_cluster_free(fw_cluster *c)
@@ -108,7 +108,39 @@ void fw_cluster_restart(fw_cluster *c, const fw_books *books)
     c->t1 = c->t0;
 }
 
-/* One step h on trial: local error of velocity over what is tolerated. */
+/* What the velocity's error does to the wear of a floe on the structure, as a share of the wear of its touch so far. A step that is
+ * harmless for the motion can spoil it: slip that has nearly died, force that has nearly gone, with errors as large as they are.
+ * Load ~ N / sqrt(d) |vt|: the law with exponent 1, near enough for a weight. Trapezoid over the step's ends. */
+static double wear_error(const fw_cluster *c, fw_pair *p, const fw_method *me, double h)
+{
+    const fw_member *a = &c->members[p->a];
+    size_t           last = me->n_stages - 1;
+    double           e[3] = {0, 0, 0}, load = 0, wrong = 0;
+    for (int q = 0; q < 3; q++)
+        for (size_t s = 0; s <= last; s++) e[q] += h * me->e[s] * a->a[s][q];
+    double en = fabs(p->nx * e[0] + p->ny * e[1]), et = fabs(p->nx * e[1] - p->ny * e[0] - a->radius * e[2]);
+    for (size_t s = 0; s <= last; s += last) {
+        size_t at = s == 0 && p->since_touch == 0 ? 1 : s; /* at the touch itself d = 0 */
+        double n = p->normal[at], d = p->depth[at], slip = fabs(p->slip[s]);
+        if (!(n > 0) || !(d > 0)) continue;
+        double weight = 0.5 * h / sqrt(d);
+        load += weight * n * slip;
+        wrong += weight * (p->law.c * en * slip + n * et);
+    }
+    p->load_tried = load;
+    return p->load + load > 0 ? wrong / (p->load + load) : 0;
+}
+
+/* A stage without force between two ends with one: its place in the polynomial is no force that ever was. */
+static bool has_hole(const fw_pair *p, size_t last)
+{
+    if (!(p->normal[0] > 0) || !(p->normal[last] > 0)) return false;
+    for (size_t s = 1; s < last; s++)
+        if (!(p->normal[s] > 0)) return true;
+    return false;
+}
+
+/* One step h on trial: local error over what is tolerated, of velocity and of wear. */
 static double attempt(fw_cluster *c, const fw_books *books, double h)
 {
     const fw_setup  *set = books->setup;
@@ -131,7 +163,14 @@ static double attempt(fw_cluster *c, const fw_books *books, double h)
         m->fastest = fw_larger(fw_length(m->v0[0] - set->speed, m->v0[1]),
                                fw_larger(fw_length(m->v1[0] - set->speed, m->v1[1]), fw_length(mx - set->speed, my)));
     }
-    return worst / (set->tolerance * set->velocity_scale);
+    worst /= set->tolerance * set->velocity_scale;
+    for (size_t k = 0; k < c->n_pairs; k++) {
+        fw_pair *p = &c->pairs[k];
+        if (p->b != FW_WALL) continue;
+        worst = fw_larger(worst, wear_error(c, p, me, h) / set->wear_tolerance);
+        if (has_hole(p, last)) worst = fw_larger(worst, 6); /* halves the step */
+    }
+    return worst;
 }
 
 double fw_cluster_fades_in(const fw_cluster *c, const fw_pair *p)
@@ -157,10 +196,8 @@ static double falls_at(const fw_method *me, const double *f)
     return u0 + (u1 - u0) * f0 / (f0 - f1);
 }
 
-/* Where in the step just tried is a kink of the wear, as a share of it? A floe lets go of the structure, or it stops sliding: where its
- * slip leaves the Coulomb cap the polynomial of a step overshoots, and slip times pressure with it (5-15 % of the depth of a
- * hit at third order). Where it begins to slide again nothing overshoots. 1: nowhere, or not worth a cut. */
-static double first_kink(const fw_cluster *c, const fw_setup *set, double h)
+/* Where in the step just tried does a floe let go of the structure, as a share of it? 1: nowhere, or not worth a cut. */
+static double release(const fw_cluster *c, const fw_setup *set, double h)
 {
     const fw_method *me = set->method;
     size_t           last = me->n_stages - 1;
@@ -169,15 +206,10 @@ static double first_kink(const fw_cluster *c, const fw_setup *set, double h)
         const fw_pair *p = &c->pairs[k];
         if (p->b != FW_WALL) continue;
         double from = fw_pair_signed_normal(p, 0), to = fw_pair_signed_normal(p, last);
-        if (to < -0.2 * from && from > 0.1 * set->tolerance * p->law.c * set->velocity_scale) {
-            for (size_t s = 0; s <= last; s++) f[s] = fw_pair_signed_normal(p, s);
-            double chord = falls_at(me, f), straight = 1.02 * fw_cluster_fades_in(c, p) / h;
-            first = fw_smaller(first, straight < 1 ? fw_larger(straight, chord) : chord);
-        }
-        if (!(p->mu > 0) || !(from > 0)) continue;
-        double sign = p->slip[0] > 0 ? 1 : -1; /* beyond the cap: ct |vt| - mu N > 0 */
-        for (size_t s = 0; s <= last; s++) f[s] = sign * p->law.ct * p->slip[s] - p->mu * fw_pair_signed_normal(p, s);
-        if (f[0] > 0 && f[last] <= 0) first = fw_smaller(first, falls_at(me, f));
+        if (to >= -0.2 * from || from <= 0.1 * set->tolerance * p->law.c * set->velocity_scale) continue;
+        for (size_t s = 0; s <= last; s++) f[s] = fw_pair_signed_normal(p, s);
+        double chord = falls_at(me, f), straight = 1.02 * fw_cluster_fades_in(c, p) / h;
+        first = fw_smaller(first, straight < 1 ? fw_larger(straight, chord) : chord);
     }
     return first;
 }
@@ -212,10 +244,10 @@ fw_status fw_cluster_try(fw_cluster *c, const fw_books *books, double limit, fw_
     double h = c->h >= left ? left : c->h > 0.5 * left ? 0.5 * left : c->h, wanted = c->h, tried = h, err;
     FW_TRY(attempt_until_good(c, books, &h, &err, msg));
     if (h < tried) wanted = h;
-    for (int n = 0; n < MAX_KINKS && h * c->omega > 0.01; n++) {
-        double kink = first_kink(c, set, h);
-        if (!(kink < KINK_AT_END)) break;
-        h *= fw_larger(kink, 0.01);
+    for (int n = 0; n < MAX_RELEASES && h * c->omega > 0.01; n++) {
+        double let_go_at = release(c, set, h);
+        if (!(let_go_at < RELEASE_AT_END)) break;
+        h *= fw_larger(let_go_at, 0.01);
         FW_TRY(attempt_until_good(c, books, &h, &err, msg));
     }
     double f = err > 0 ? 0.9 * pow(err, -1.0 / set->method->error_order) : set->growth;
@@ -272,7 +304,11 @@ fw_status fw_cluster_commit(fw_cluster *c, const fw_books *books, int32_t *opene
     fw_books_wear(c, books);
     books->world->ledger.steps++;
     c->t0 = c->t1;
-    for (size_t k = 0; k < c->n_pairs; k++) c->pairs[k].since_touch += h;
+    for (size_t k = 0; k < c->n_pairs; k++) {
+        fw_pair *p = &c->pairs[k];
+        p->since_touch += h;
+        p->load += p->load_tried;
+    }
     for (size_t i = 0; i < c->n_members; i++) {
         fw_member *m = &c->members[i];
         fw_body   *b = &books->world->bodies[m->index];

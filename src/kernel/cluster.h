@@ -50,7 +50,8 @@ typedef struct fw_pair {
     double               t_touch, since_touch;
     double               normal[FW_MAX_STAGES], friction[FW_MAX_STAGES], slip[FW_MAX_STAGES], rate[FW_MAX_STAGES];
     double               depth[FW_MAX_STAGES], dir[FW_MAX_STAGES][2];
-    int32_t              candidate; /* its entry in the lists of who may touch whom */
+    double               load, load_tried; /* of this touch so far, and of the tried step: see wear_error in cluster.c */
+    int32_t              candidate;        /* its entry in the lists of who may touch whom */
 } fw_pair;
 
 typedef struct fw_cluster {

@@ -320,7 +320,8 @@ static fw_status locate(fw_kernel *k, int32_t c, fw_cluster *a, fw_cluster *b, d
         }
         last = *t, *t = next;
     }
-    *is_touch = true; /* to and fro within rounding */
+    *t = last; /* to and fro: where both stand now */
+    *is_touch = true;
     return FW_OK;
 }
 
@@ -373,6 +374,16 @@ static fw_status close_others(fw_kernel *k, fw_cluster *c, fw_msg *m)
     return FW_OK;
 }
 
+/* Is somebody else's event before t? */
+static bool is_first(const fw_kernel *k, int32_t c, const fw_cluster *a, const fw_cluster *b, double t)
+{
+    for (size_t i = 0; i < k->n_clusters; i++)
+        if (k->clusters[i] != a && k->clusters[i] != b && k->clusters[i]->t1 < t) return false;
+    for (size_t i = 0; i < k->traffic.n_candidates; i++)
+        if ((int32_t)i != c && k->traffic.candidates[i].touch < t) return false;
+    return true;
+}
+
 static fw_status touch(fw_kernel *k, int32_t c, double t_end, fw_msg *m)
 {
     fw_traffic         *t = &k->traffic;
@@ -388,6 +399,13 @@ static fw_status touch(fw_kernel *k, int32_t c, double t_end, fw_msg *m)
         if (a || b) return FW_OK;
         t->now = at; /* two free floes graze each other: look again from here on */
         fw_traffic_check(t, c);
+        return FW_OK;
+    }
+    if (at > t->candidates[c].touch && !(is_first(k, c, a, b, at) && at <= fw_smaller(t_end, t->until))) {
+        /* Landing moved the touch past another event: that one comes first. The steps are cut where the touch is now. */
+        if (a) FW_TRY(look_ahead(k, a, m));
+        if (b && b != a) FW_TRY(look_ahead(k, b, m));
+        fw_traffic_touches_at(t, c, at);
         return FW_OK;
     }
     t->now = at;

@@ -26,6 +26,7 @@ typedef struct fw_setup {
     /* numerics */
     const fw_method *method;
     double           tolerance;       /* local error of velocity per sub-step over velocity_scale */
+    double           wear_tolerance;  /* error of a step's wear over the wear of its touch so far */
     double           velocity_scale;  /* [m/s] */
     double           first_step;      /* after a touch, in 1/w */
     double           growth;          /* largest factor from one sub-step to the next */

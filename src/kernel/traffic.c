@@ -223,7 +223,7 @@ void fw_traffic_woken(fw_traffic *t, int32_t c, int32_t j)
 
 /* --- touches --------------------------------------------------------------------------------------------------------- */
 
-static void set_touch(fw_traffic *t, int32_t c, double touch)
+void fw_traffic_touches_at(fw_traffic *t, int32_t c, double touch)
 {
     fw_candidate *e = &t->candidates[c];
     e->touch = touch;
@@ -281,7 +281,7 @@ void fw_traffic_check(fw_traffic *t, int32_t c)
         e->clear = t->now + (gap > 0 ? gap / bound : 0);
         if (!(gap > speed * (until - t->now))) touch = fw_path_touch(&a, &b, t->now, until);
     }
-    if (touch != e->touch) set_touch(t, c, touch);
+    if (touch != e->touch) fw_traffic_touches_at(t, c, touch);
 }
 
 void fw_traffic_check_body(fw_traffic *t, int32_t i)

@@ -65,6 +65,7 @@ void fw_traffic_woken(fw_traffic *t, int32_t c, int32_t j);
 
 void    fw_traffic_check(fw_traffic *t, int32_t c);
 void    fw_traffic_check_body(fw_traffic *t, int32_t i); /* all its candidates; those within its cluster once */
+void    fw_traffic_touches_at(fw_traffic *t, int32_t c, double touch); /* found by somebody who knows better */
 int32_t fw_traffic_soonest(fw_traffic *t);               /* -1: nobody touches as far as is known */
 int32_t fw_traffic_find(const fw_traffic *t, int32_t i, int32_t j); /* -1: no such candidate */
 

@@ -10,14 +10,13 @@
  * The balance has to be within the wanted accuracy too, and for TR-BDF2 it is the stricter of the two. ARK3 is worse in depth at
  * loose tolerances (near head-on its cubic overshoots where sliding ends) and takes over at the finest level. */
 static const struct row {
-    double accuracy, tolerance, first_step, growth;
+    double accuracy, tolerance, wear, first_step, growth;
 } TABLE[] = {
-    {1e-1, 1e-2, 0.05, 3},
-    {1e-2, 1e-4, 0.05, 3},
-    {1e-3, 2e-6, 0.05, 3},
-    {1e-4, 1e-8, 0.05, 3},
+    {1e-1, 2e-3, 2e-3, 0.1, 3},
+    {1e-2, 1e-3, 2e-4, 0.1, 3},
+    {1e-3, 3e-5, 5e-6, 0.05, 3},
+    {1e-4, 2e-6, 3e-7, 0.02, 3},
 };
-static const double ARK3_BELOW = 9e-4; /* accuracies finer than 0.1 % */
 enum { N_ROWS = sizeof TABLE / sizeof TABLE[0] };
 
 static double blend(double a, double b, double f) { return exp(log(a) + f * (log(b) - log(a))); }
@@ -39,8 +38,9 @@ void fw_accuracy_setup(fw_setup *s, const fw_model *m, double speed, double velo
         .has_friction = has_friction,
         .ice_density = m->ice_density,
         .drag_per_area = has_drag ? 0.5 * m->water_density * m->form_drag : 0,
-        .method = m->accuracy < ARK3_BELOW ? FW_METHOD_ARK3 : FW_METHOD_TRBDF2,
+        .method = FW_METHOD_ARK3,
         .tolerance = blend(TABLE[r].tolerance, TABLE[r + 1].tolerance, f),
+        .wear_tolerance = blend(TABLE[r].wear, TABLE[r + 1].wear, f),
         .velocity_scale = velocity_scale,
         .first_step = blend(TABLE[r].first_step, TABLE[r + 1].first_step, f),
         .growth = blend(TABLE[r].growth, TABLE[r + 1].growth, f),
@@ -56,7 +56,8 @@ void fw_accuracy_setup(fw_setup *s, const fw_model *m, double speed, double velo
     };
     const fw_numerics *own = &m->numerics; /* of a study of the choice itself */
     if (own->order) s->method = own->order == 2 ? FW_METHOD_TRBDF2 : own->order == 3 ? FW_METHOD_ARK3 : FW_METHOD_ARK4;
-    if (own->tolerance > 0) s->tolerance = own->tolerance;
+    if (own->tolerance > 0) s->tolerance = own->tolerance, s->landing = 10 * own->tolerance;
+    if (own->wear_tolerance > 0) s->wear_tolerance = own->wear_tolerance;
     if (own->first_step > 0) s->first_step = own->first_step;
     if (own->growth > 0) s->growth = own->growth;
 }

@@ -22,6 +22,7 @@ static fw_setup setup(void)
                       .first_step = 0.05,
                       .growth = 3,
                       .max_step = INFINITY,
+                      .wear_tolerance = 1e-4,
                       .solver_share = 1e-3,
                       .landing = 1e-4,
                       .horizon = 2,
