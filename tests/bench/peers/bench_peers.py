@@ -32,6 +32,7 @@ LOCKED_FIELDS = FIELDS[:3]
 STEPS = (8e-3, 3e-3, 1e-3, 3e-4, 1e-4)  # [s]; the last one is each program's own limit
 FINEST = STEPS[-1]
 LOCKED_STEP = 3e-4  # [s]
+ENOUGH = 0.015  # depth error for the ratio in a sentence
 ACCURACIES = (0.1, 0.01, 0.001)
 REFERENCE = 0.0001
 ROUNDS = 3  # of timing, each on another field
@@ -164,7 +165,7 @@ def cost_table(r):
           "steps (floewear: its simulation) and of the whole process. Depth error: floewear against its accuracy 0.01 %; the others "
           "against their own limit, the graded sum at their smallest step, because their contact differs a little (below). Sum at "
           "step ends: rate at a step's end times the step, what a DEM user does with a dump. Graded sum: the touch located inside "
-          "its step, and the singular rate after it integrated as such, which few users would write; neither sum is in the times. "
+          "its step, and the singular rate after it integrated as such, which a user would have to write; neither sum is in the times. "
           f"Runs stay coupled: no field's impulse changes by more than {100 * r.decoupling():.1g} % with a peer's step, so these "
           "are errors, not the scatter of another course of events.\n")
     print("| program | step or accuracy | CPU s: time steps | process | depth error, sum at step ends | graded sum | "
@@ -183,10 +184,21 @@ def cost_table(r):
     print()
 
 
+def needed(r, peer):
+    """The coarsest step that is near enough, by either sum, and what it costs."""
+    for what, name in ((NAIVE, "at step ends"), (GRADED, "graded")):
+        dt = next((dt for dt in STEPS if rms(r.peer_errors(peer, dt, what)) <= ENOUGH), None)
+        a = r.cheapest(ENOUGH)
+        if dt is None or a is None:
+            yield f"a step below {1000 * FINEST:g} ms with the sum {name}"
+        else:
+            yield f"{1000 * dt:g} ms with the sum {name} ({r.ratio(peer, dt, a, 0):.3g} times floewear's CPU s at {100 * a:g} %)"
+
+
 def ratio_table(r):
     print("### Ratio at the depth accuracy of each\n")
     print("CPU s of the peer's time steps over CPU s of floewear's simulation, at floewear's cheapest accuracy whose r.m.s. depth "
-          "error is no larger than the peer's (often it is far smaller: floewear has no accuracy as coarse); median of the rounds. "
+          "error is no larger than the peer's (often far smaller: 10 % is its coarsest); median of the rounds. "
           "Last column: of the whole processes, in which floewear's start and its reading of the scene are most of it.\n")
     print("| program | step | sum | its depth error, r.m.s. | floewear at | its depth error, r.m.s. | CPU ratio | of processes |")
     print("|---|---|---|---|---|---|---|---|")
@@ -201,11 +213,11 @@ def ratio_table(r):
                       f"{100 * rms(r.depth_errors(a)):.2g} % | {r.ratio(peer, dt, a, 0):.3g} | {r.ratio(peer, dt, a, 1):.3g} |")
     print()
     for peer in PEERS:
+        print(f"For a depth within {100 * ENOUGH:g} % r.m.s. {peer.name} needs " + " and ".join(needed(r, peer)) + ".")
         share = statistics.median(1 - w / t[0] for w, t in zip(r.without_drag[peer], r.times[peer, 1e-3]))
         print(f"{peer.name} spends {100 * share:.0f} % of its time on the drag, a formula of its input file evaluated at every step "
               f"(the package has no quadratic drag); with a drag in compiled code that cost nothing, ratios would be {1 / (1 - share):.1f} "
-              "times smaller.")
-    print()
+              "times smaller.\n")
 
 
 def check_table(r):
