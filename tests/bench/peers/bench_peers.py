@@ -77,7 +77,8 @@ def spread(errors):
 
 
 def version(peer):
-    lines = subprocess.run([peer.program, "-h"], capture_output=True, text=True, check=False).stdout.splitlines()
+    with tempfile.TemporaryDirectory() as folder:  # even this leaves a log behind
+        lines = subprocess.run([peer.program, "-h"], cwd=folder, capture_output=True, text=True, check=False).stdout.splitlines()
     line = next((text for text in lines if text.strip()), "").strip()
     return line.split("Parallel Simulator - ")[-1].split(", compiled")[0].split("LIGGGHTS-PUBLIC ")[-1]
 
@@ -239,12 +240,12 @@ def check_table(r):
 def full(program):
     with tempfile.TemporaryDirectory() as folder:
         r = Results(program, pathlib.Path(folder))
-    hits = [r.states[PEERS[0], f, FINEST, scene.DURATION, True] for f in FIELDS]
+    limits = [r.states[PEERS[0], f, FINEST, scene.DURATION, True] for f in FIELDS]
     print("### Scene\n")
     print(f"The paper's example: {scene.AREA_LENGTH:g} m x {scene.AREA_WIDTH:g} m, 40 %, {scene.SPEED:g} m/s, structure of "
           f"{2 * scene.STRUCTURE:g} m, {scene.DURATION:g} s, nothing flows in; {len(FIELDS)} fields of "
           f"{min(len(scene.make(f)) for f in FIELDS)}-{max(len(scene.make(f)) for f in FIELDS)} floes, the same floes in all programs; "
-          f"normal impulse {min(h[IMPULSE] for h in hits) / 1e6:.1f}-{max(h[IMPULSE] for h in hits) / 1e6:.1f} MN s.")
+          f"normal impulse {min(h[IMPULSE] for h in limits) / 1e6:.1f}-{max(h[IMPULSE] for h in limits) / 1e6:.1f} MN s.")
     print("Programs: " + "; ".join(f"{p.name} {version(p)}, Debian's `{p.program if p.program != 'lmp' else 'lammps'}`" for p in PEERS) +
           "; one process each. To measure again: `apt-get install lammps liggghts python3-numpy`, then `tests/bench/run peers`.\n")
     cost_table(r)

@@ -8,10 +8,10 @@ RATE = 0.116 * scene.TEMPERATURE**-EXPONENT * 1e-6**EXPONENT / 1000  # mm per me
 
 
 class Sums:
-    """Depth along the contacts [mm] by both sums, normal impulse [N s] and the number of touches."""
+    """Depth along the contacts [mm] by both sums, and normal impulse [N s]."""
 
-    def __init__(self, naive, graded, impulse, touches):
-        self.naive, self.graded, self.impulse, self.touches = naive, graded, impulse, touches
+    def __init__(self, naive, graded, impulse):
+        self.naive, self.graded, self.impulse = naive, graded, impulse
 
 
 def rates(floes, ids, state):
@@ -39,7 +39,7 @@ def sums(floes, steps, ids, state, dt):
     steps, ids, state = steps[order], ids[order], state[order]
     overlap, closing, force, wear = rates(floes, ids, state)
     if len(ids) == 0:
-        return Sums(0.0, 0.0, 0.0, 0)
+        return Sums(0.0, 0.0, 0.0)
     first = np.r_[True, (np.diff(ids) != 0) | (np.diff(steps) != 1)]
     last = np.r_[first[1:], True]
     # Time since the touch, which lies inside the step that ended with the first overlap.
@@ -55,4 +55,4 @@ def sums(floes, steps, ids, state, dt):
     weight = (after - before) / 2 * age**(EXPONENT / 2)
     # Trapezoids, and the whole of the part before the first sample, where the force starts with its jump.
     share = np.where(first, start[run] + dt / 2, dt) - np.where(last, dt / 2, 0.0)
-    return Sums(float(np.sum(wear) * dt), float(np.sum(weight * wear)), float(np.sum(share * force)), int(np.sum(first)))
+    return Sums(float(np.sum(wear) * dt), float(np.sum(weight * wear)), float(np.sum(share * force)))
