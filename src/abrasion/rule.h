@@ -24,7 +24,12 @@
 
 #include "floewear/scenario.h"
 
-enum { FW_WEAR_STAGES = 8, FW_RULE_TOUCH = 4, FW_RULE_FADE = 5, FW_RULE_NODES = 4 * FW_RULE_FADE };
+enum {
+    FW_WEAR_STAGES = 8,
+    FW_RULE_TOUCH = 4,
+    FW_RULE_FADE = 5,
+    FW_RULE_NODES = 4 * FW_RULE_FADE /* a multiple of 4 */
+};
 
 /* One structure contact during one sub-step, as the integrator knows it: values at the stages' instants. */
 typedef struct fw_wear_interval {

@@ -150,7 +150,8 @@ void fw_wear_collect(fw_wear *w, const fw_wear_interval *iv)
     fw_rule_nodes at;
     fw_rule_apply(&w->quadrature, w->rule, iv, &at);
     double chords[FW_RULE_NODES];
-    for (size_t q = 0; q < at.n; q++) chords[q] = fw_lens_chord(at.depth[q], iv->radius, w->structure_radius);
+    for (size_t q = at.n; q % 4; q++) at.depth[q] = 0;
+    for (size_t q = 0; q < at.n; q += 4) fw_lens_chords(at.depth + q, iv->radius, w->structure_radius, chords + q);
     for (size_t q = 0; q < at.n; q++) {
         double slip = fabs(at.slip[q]), chord = chords[q];
         if (!(slip > 0) || !(chord > 0) || !(at.normal[q] > 0)) continue;

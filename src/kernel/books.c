@@ -66,7 +66,7 @@ void fw_books_keep(const fw_cluster *c, const fw_books *books)
         for (size_t s = 0; s < me->n_stages; s++) {
             double hb = h * me->b[s];
             j[0] += hb * m->drag[s][0], j[1] += hb * m->drag[s][1];
-            work += hb * (m->drag[s][0] * m->v[s][0] + m->drag[s][1] * m->v[s][1]);
+            work += hb * (m->drag[s][0] * m->k[s][0] + m->drag[s][1] * m->k[s][1]);
         }
         l->drag_work += work / m->own_inv_mass;
         m->gained[0] = j[0], m->gained[1] = j[1], m->gained[2] = 0;
@@ -79,15 +79,36 @@ void fw_books_keep(const fw_cluster *c, const fw_books *books)
         double           mass = 1 / m->own_inv_mass, inertia = m->inv_inertia > 0 ? 1 / m->inv_inertia : 0;
         double           change = 0, work = 0, err = 0;
         for (int q = 0; q < 3; q++) {
-            double in = q < 2 ? mass : inertia, dv = m->v1[q] - m->v0[q], mean = 0.5 * (m->v1[q] + m->v0[q]);
+            double in = q < 2 ? mass : inertia, from = m->y0[FW_VX + q], to = m->y1[FW_VX + q], dv = to - from,
+                   mean = 0.5 * (to + from);
             change += in * dv * mean;
             work += in * m->gained[q] * mean;
             if (q < 2) err += fabs(dv - m->gained[q]);
         }
         l->kinetic_change += change, l->impulse_work += work;
-        l->impulse_size += mass * m->shoved * 0.5 * (fw_length(m->v0[0], m->v0[1]) + fw_length(m->v1[0], m->v1[1]));
+        l->impulse_size += mass * m->shoved * 0.5 *
+                           (fw_length(m->y0[FW_VX], m->y0[FW_VY]) + fw_length(m->y1[FW_VX], m->y1[FW_VY]));
         l->momentum_error += mass * err, l->momentum_size += mass * m->shoved;
     }
+}
+
+/* The floe lets go within the step. Stages beyond the release are no force that ever was, and a polynomial through them bulges (up to
+ * a tenth of a hit's depth); so the interval ends where the force is gone, and it falls straight until then. */
+static void end_where_it_lets_go(const fw_cluster *c, const fw_pair *p, const fw_member *a, const fw_method *me,
+                                 fw_wear_interval *iv)
+{
+    double h = iv->length, gone = fw_cluster_lets_go(c, p, me);
+    double u = gone / h, d1 = iv->depth[1] - iv->depth[0], r0 = -iv->rate[0], r1 = -iv->rate[1];
+    double c2 = 3 * d1 + h * (2 * r0 + r1), c3 = -h * (r0 + r1) - 2 * d1; /* depth as a cubic, its slope is the closing rate */
+    size_t s = 1;
+    while (s + 1 < iv->n_stages && iv->at[s] < u) s++; /* any stage after the release tells where slip goes */
+    double slip = iv->slip[0] + (iv->slip[s] - iv->slip[0]) * u / iv->at[s];
+    double depth = iv->depth[0] + u * (-h * r0 + u * (c2 + u * c3)), rate = -r0 + u * (2 * c2 + 3 * u * c3) / h;
+    double turn = fw_ring_angle(a->y1[FW_X], a->y1[FW_Y]) - iv->angle[0];
+    turn -= 6.283185307179586 * round(turn / 6.283185307179586);
+    iv->length = gone, iv->n_stages = 2;
+    iv->at[1] = 1, iv->normal[1] = 0, iv->slip[1] = slip;
+    iv->depth[1] = depth, iv->rate[1] = rate, iv->angle[1] = iv->angle[0] + turn * u;
 }
 
 void fw_books_wear(const fw_cluster *c, const fw_books *books)
@@ -106,16 +127,11 @@ void fw_books_wear(const fw_cluster *c, const fw_books *books)
         iv.depth[0] = p->since_touch > 0 ? p->depth[0] : 0; /* landed on the touch to rounding */
         iv.depth[1] = p->depth[last];
         iv.rate[0] = p->rate[0], iv.rate[1] = p->rate[last];
-        iv.angle[0] = fw_ring_angle(a->x0, a->y0), iv.angle[1] = fw_ring_angle(a->x1, a->y1);
+        iv.angle[0] = fw_ring_angle(a->y0[FW_X], a->y0[FW_Y]), iv.angle[1] = fw_ring_angle(a->y1[FW_X], a->y1[FW_Y]);
         iv.n_stages = me->n_stages;
         for (size_t s = 0; s < me->n_stages; s++)
             iv.at[s] = me->c[s], iv.normal[s] = fw_pair_signed_normal(p, s), iv.slip[s] = p->slip[s];
-        /* A step that goes on long after the floe let go: between its stages the force's polynomial would bulge. */
-        if (iv.normal[0] > 0 && iv.normal[last] < -iv.normal[0]) {
-            double fades = fw_cluster_fades_in(c, p), force = iv.normal[0];
-            if (fades < iv.length)
-                for (size_t s = 0; s <= last; s++) iv.normal[s] = force * (1 - me->c[s] * iv.length / fades);
-        }
+        if (iv.normal[0] > 0 && iv.normal[last] <= 0) end_where_it_lets_go(c, p, a, me, &iv);
         iv.radius = a->radius, iv.thickness = body->thickness;
         fw_wear_collect(books->wear, &iv);
     }

@@ -10,7 +10,6 @@
 
 #include "base/memory.h"
 
-enum { MAX_RELEASES = 2 };
 static const double RELEASE_AT_END = 0.98; /* share of a step past which a release counts as its end */
 static const double SHORTEST = 1e-9; /* steps below this, in 1/w, are taken whatever their error */
 
@@ -39,9 +38,7 @@ fw_status fw_cluster_join(fw_cluster *c, const fw_books *books, int32_t body, in
                      .drag_per_mass = b->drag * b->inv_mass,
                      .own_inv_mass = b->inv_mass,
                      .inv_inertia = b->inv_inertia,
-                     .x0 = b->x,
-                     .y0 = b->y,
-                     .v0 = {b->vx, b->vy, b->spin}};
+                     .y0 = {b->x, b->y, 0, 0, b->vx, b->vy, b->spin, 0}};
     *member = (int32_t)c->n_members++;
     return FW_OK;
 }
@@ -117,7 +114,7 @@ static double wear_error(const fw_cluster *c, fw_pair *p, const fw_method *me, d
     size_t           last = me->n_stages - 1;
     double           e[3] = {0, 0, 0}, load = 0, wrong = 0;
     for (int q = 0; q < 3; q++)
-        for (size_t s = 0; s <= last; s++) e[q] += h * me->e[s] * a->a[s][q];
+        for (size_t s = 0; s <= last; s++) e[q] += h * me->e[s] * a->k[s][FW_VX + q];
     double en = fabs(p->nx * e[0] + p->ny * e[1]), et = fabs(p->nx * e[1] - p->ny * e[0] - a->radius * e[2]);
     for (size_t s = 0; s <= last; s += last) {
         size_t at = s == 0 && p->since_touch == 0 ? 1 : s; /* at the touch itself d = 0 */
@@ -140,6 +137,16 @@ static bool has_hole(const fw_pair *p, size_t last)
     return false;
 }
 
+/* Bound of |v - u| over the step: the cubic's velocity is a parabola, bounded by its control points v0, middle, v1. */
+static double fastest(const fw_member *m, double speed, double inv_h)
+{
+    const double *v0 = m->y0 + FW_VX, *v1 = m->y1 + FW_VX;
+    double        mx = 3 * (m->y1[FW_X] - m->y0[FW_X]) * inv_h - v0[0] - v1[0],
+           my = 3 * (m->y1[FW_Y] - m->y0[FW_Y]) * inv_h - v0[1] - v1[1];
+    double r0 = (v0[0] - speed) * (v0[0] - speed) + v0[1] * v0[1], r1 = (v1[0] - speed) * (v1[0] - speed) + v1[1] * v1[1];
+    return sqrt(fw_larger(fw_larger(r0, r1), (mx - speed) * (mx - speed) + my * my));
+}
+
 /* One step h on trial: local error over what is tolerated, of velocity and of wear. */
 static double attempt(fw_cluster *c, const fw_books *books, double h)
 {
@@ -150,18 +157,14 @@ static double attempt(fw_cluster *c, const fw_books *books, double h)
     double hg = h * me->gamma, worst = 0, inv = 1 / h;
     for (size_t i = 0; i < c->n_members; i++) {
         fw_member *m = &c->members[i];
-        m->x1 = m->xr + hg * m->v[last][0], m->y1 = m->yr + hg * m->v[last][1];
-        double e[3] = {0, 0, 0};
-        for (int q = 0; q < 3; q++) {
-            m->v1[q] = m->v[last][q];
-            for (size_t s = 0; s <= last; s++) e[q] += me->e[s] * m->a[s][q];
-        }
+        double     e[4] = {0, 0, 0, 0};
+        m->y1[FW_X] = m->r[FW_X] + hg * m->k[last][FW_X], m->y1[FW_Y] = m->r[FW_Y] + hg * m->k[last][FW_Y];
+        for (int q = 0; q < 4; q++) m->y1[FW_VX + q] = m->k[last][q];
+        for (size_t s = 0; s <= last; s++)
+            for (int q = 0; q < 4; q++) e[q] += me->e[s] * m->k[s][FW_VX + q];
         double err = h * fw_larger(fw_length(e[0], e[1]), m->radius * fabs(e[2]));
         if (!(err <= worst)) worst = err; /* keeps NaN */
-        /* the cubic's velocity is a parabola: bounded by its control points v0, middle, v1 */
-        double mx = 3 * (m->x1 - m->x0) * inv - m->v0[0] - m->v1[0], my = 3 * (m->y1 - m->y0) * inv - m->v0[1] - m->v1[1];
-        m->fastest = fw_larger(fw_length(m->v0[0] - set->speed, m->v0[1]),
-                               fw_larger(fw_length(m->v1[0] - set->speed, m->v1[1]), fw_length(mx - set->speed, my)));
+        m->fastest = fastest(m, set->speed, inv);
     }
     worst /= set->tolerance * set->velocity_scale;
     for (size_t k = 0; k < c->n_pairs; k++) {
@@ -173,43 +176,35 @@ static double attempt(fw_cluster *c, const fw_books *books, double h)
     return worst;
 }
 
-double fw_cluster_fades_in(const fw_cluster *c, const fw_pair *p)
+double fw_cluster_lets_go(const fw_cluster *c, const fw_pair *p, const fw_method *me)
 {
     const fw_member *a = &c->members[p->a];
-    double           nx = p->dir[0][0], ny = p->dir[0][1], r = fw_length(a->x0, a->y0);
-    double           along = nx * a->v0[1] - ny * a->v0[0]; /* along the wall: it turns the normal */
-    double           rate_slope = -(nx * a->a[0][0] + ny * a->a[0][1]) - along * along / r;
+    double           nx = p->dir[0][0], ny = p->dir[0][1], r = fw_length(a->y0[FW_X], a->y0[FW_Y]);
+    double           along = nx * a->y0[FW_VY] - ny * a->y0[FW_VX]; /* along the wall: it turns the normal */
+    double           rate_slope = -(nx * a->k[0][FW_VX] + ny * a->k[0][FW_VY]) - along * along / r;
     double           force = fw_pair_signed_normal(p, 0), slope = p->law.k * p->rate[0] + p->law.c * rate_slope;
-    return force > 0 && slope < 0 ? -force / slope : INFINITY;
+    size_t           free = me->n_stages - 1;
+    for (size_t s = 1; s + 1 < me->n_stages; s++)
+        if (fw_pair_signed_normal(p, s) <= 0 && me->c[s] < me->c[free]) free = s;
+    double t = me->c[free] * (c->t1 - c->t0), end = fw_pair_signed_normal(p, free), chord = t * force / (force - end);
+    double q = (end - force - slope * t) / (t * t), d = slope * slope - 4 * q * force;
+    /* smallest positive root of force + slope t + q t^2, without cancellation */
+    double root = d >= 0 ? 2 * force / (sqrt(d) - slope) : chord;
+    return root > 0 && root <= t ? root : chord;
 }
 
-/* Where a function that is known at the stages' instants falls through zero, as a share of the step: f[0] > 0, f[last] <= 0. The stages in
- * between tell on which side of the chord the zero lies. */
-static double falls_at(const fw_method *me, const double *f)
-{
-    size_t last = me->n_stages - 1;
-    double u0 = 0, u1 = 1, f0 = f[0], f1 = f[last];
-    for (size_t s = 1; s < last; s++)
-        if (f[s] > 0 && me->c[s] > u0 && me->c[s] < 1) u0 = me->c[s], f0 = f[s];
-    for (size_t s = 1; s < last; s++)
-        if (f[s] <= 0 && me->c[s] < u1 && me->c[s] > u0) u1 = me->c[s], f1 = f[s];
-    return u0 + (u1 - u0) * f0 / (f0 - f1);
-}
-
-/* Where in the step just tried does a floe let go of the structure, as a share of it? 1: nowhere, or not worth a cut. */
+/* When in the step just tried does a floe let go of the structure, after t0? The step's end: nowhere, or not worth a cut. */
 static double release(const fw_cluster *c, const fw_setup *set, double h)
 {
-    const fw_method *me = set->method;
-    size_t           last = me->n_stages - 1;
-    double           first = 1, f[FW_MAX_STAGES];
+    size_t last = set->method->n_stages - 1;
+    double first = h;
     for (size_t k = 0; k < c->n_pairs; k++) {
         const fw_pair *p = &c->pairs[k];
         if (p->b != FW_WALL) continue;
         double from = fw_pair_signed_normal(p, 0), to = fw_pair_signed_normal(p, last);
         if (to >= -0.2 * from || from <= 0.1 * set->tolerance * p->law.c * set->velocity_scale) continue;
-        for (size_t s = 0; s <= last; s++) f[s] = fw_pair_signed_normal(p, s);
-        double chord = falls_at(me, f), straight = 1.02 * fw_cluster_fades_in(c, p) / h;
-        first = fw_smaller(first, straight < 1 ? fw_larger(straight, chord) : chord);
+        /* A little past it, so that the contact does open there: at 1.02 the remnant took a step of its own in half of all hits. */
+        first = fw_smaller(first, 1.2 * fw_cluster_lets_go(c, p, set->method));
     }
     return first;
 }
@@ -244,11 +239,13 @@ fw_status fw_cluster_try(fw_cluster *c, const fw_books *books, double limit, fw_
     double h = c->h >= left ? left : c->h > 0.5 * left ? 0.5 * left : c->h, wanted = c->h, tried = h, err;
     FW_TRY(attempt_until_good(c, books, &h, &err, msg));
     if (h < tried) wanted = h;
-    for (int n = 0; n < MAX_RELEASES && h * c->omega > 0.01; n++) {
+    if (h * c->omega > 0.01) {
+        c->t1 = c->t0 + h;
         double let_go_at = release(c, set, h);
-        if (!(let_go_at < RELEASE_AT_END)) break;
-        h *= fw_larger(let_go_at, 0.01);
-        FW_TRY(attempt_until_good(c, books, &h, &err, msg));
+        if (let_go_at < RELEASE_AT_END * h) {
+            h = let_go_at;
+            FW_TRY(attempt_until_good(c, books, &h, &err, msg));
+        }
     }
     double f = err > 0 ? 0.9 * pow(err, -1.0 / set->method->error_order) : set->growth;
     f = fw_smaller(set->growth, f);
@@ -274,7 +271,7 @@ static fw_status let_go(fw_cluster *c, const fw_books *books, int32_t *opened, s
             const fw_member *a = &c->members[p->a];
             fw_body         *body = &books->world->bodies[a->index];
             body->t_wall = c->t0;
-            FW_CHECK(fw_length(a->x0, a->y0) > books->setup->structure_radius, msg, FW_E_NUMERIC,
+            FW_CHECK(fw_length(a->y0[FW_X], a->y0[FW_Y]) > books->setup->structure_radius, msg, FW_E_NUMERIC,
                      "floe %llu (D %.3g m, h %.2g m) has its centre inside the structure at t = %.6g s",
                      (unsigned long long)body->name, 2 * body->radius, body->thickness, c->t0);
         }
@@ -313,9 +310,8 @@ fw_status fw_cluster_commit(fw_cluster *c, const fw_books *books, int32_t *opene
         fw_member *m = &c->members[i];
         fw_body   *b = &books->world->bodies[m->index];
         b->t = c->t0;
-        b->x = m->x0 = m->x1, b->y = m->y0 = m->y1;
-        b->vx = m->v1[0], b->vy = m->v1[1], b->spin = m->v1[2];
-        for (int q = 0; q < 3; q++) m->v0[q] = m->v1[q], m->a[0][q] = m->a[last][q], m->v[0][q] = m->v[last][q];
+        for (int q = 0; q < 8; q++) m->y0[q] = m->y1[q], m->k[0][q] = m->k[last][q];
+        b->x = m->y0[FW_X], b->y = m->y0[FW_Y], b->vx = m->y0[FW_VX], b->vy = m->y0[FW_VY], b->spin = m->y0[FW_SPIN];
         m->drag[0][0] = m->drag[last][0], m->drag[0][1] = m->drag[last][1];
     }
     return let_go(c, books, opened, n_opened, msg);

@@ -12,39 +12,42 @@
 
 #include "kernel/kernel.h"
 
-/* A floe of the cluster. Stage arrays are (stage) x (x, y, rotation). */
+/* Where a floe's position and velocity stand in an array of eight: a vector unit's two words. */
+enum { FW_X = 0, FW_Y = 1, FW_VX = 4, FW_VY = 5, FW_SPIN = 6 };
+
+/* A floe of the cluster. */
 typedef struct fw_member {
     /* what a sweep reads and writes lies together */
-    double V[3];     /* unknown stage velocity while it is solved for */
+    double V[4];     /* unknown stage velocity (x, y, spin, 0) while it is solved for */
     double inv_mass; /* of the stage: drag adds to inertia */
     double radius;
     double turn; /* radius x inv_inertia: spin per impulse along the rim */
     /* the stage's equations */
-    double vr[3], xr, yr;             /* known part */
-    double X, Y, U[3];                /* predicted stage position and the velocity it was predicted with */
+    double r[8];                      /* known part */
+    double X, Y, U[4];                /* predicted stage position and the velocity it was predicted with */
     double resistance, ease;          /* 1 + hg drag_rate and its inverse */
     double drag_rate, drag_per_mass;  /* drag x |u - v| / mass [1/s] that V was built with; drag / mass [1/m] */
     double own_inv_mass, inv_inertia; /* of the floe */
-    /* the step */
-    double   x0, y0, v0[3];
-    double   x1, y1, v1[3];
-    double   fastest; /* bound of |v - u| over the tried step [m/s] */
-    double   a[FW_MAX_STAGES][3], v[FW_MAX_STAGES][3], drag[FW_MAX_STAGES][2];
-    double   gained[3], shoved; /* books' sums of one step: velocity from impulses, and their size without sign */
-    int32_t  index;             /* of the body in the world */
+    /* the step: state at both ends, slopes of the state at the stages: (vx, vy, spin, 0, ax, ay, spin's, 0) */
+    double   y0[8], y1[8], k[FW_MAX_STAGES][8];
+    double   drag[FW_MAX_STAGES][2];
+    double   fastest;            /* bound of |v - u| over the tried step [m/s] */
+    double   gained[3], shoved;  /* books' sums of one step: velocity from impulses, and their size without sign */
+    int32_t  index;              /* of the body in the world */
     uint32_t n_pairs;
 } fw_member;
 
 /* A closed contact. b = FW_WALL: the structure. */
 typedef struct fw_pair {
-    int32_t a, b; /* members */
     /* what a sweep reads and writes */
+    fw_member *ma, *mb;      /* members a and b, or the cluster's wall; set anew for each stage, since members move */
     double nx, ny;           /* this stage, from b to a */
     double alpha, beta;      /* N = max(0, alpha + beta closing rate) */
     double to_push, to_rub;  /* impulses that a sweep answers with, per force without it and per slip */
     double push, rub;        /* impulses of this stage [N s] */
     double w_normal, w_slip; /* inverse effective masses */
     double mu;
+    int32_t              a, b; /* members */
     double               depth_star, rate_star;
     fw_contact_constants law;
     double               t_touch, since_touch;
@@ -59,6 +62,7 @@ typedef struct fw_cluster {
     double     h;       /* step to try next [s]; INFINITY: none known */
     double     omega;   /* of the stiffest contact [1/s] */
     bool       is_kept; /* steps may not pass the next listing: members are about to be forgotten */
+    fw_member  wall;    /* the structure as a member that nothing moves: a sweep needs no branch for it */
     size_t     n_members, member_capacity, n_pairs, pair_capacity;
     fw_member *members;
     fw_pair   *pairs;
@@ -96,9 +100,9 @@ fw_status fw_cluster_land(fw_cluster *c, const fw_books *b, double t, fw_msg *m)
 fw_status fw_cluster_commit(fw_cluster *c, const fw_books *b, int32_t *opened, size_t *n_opened, fw_msg *m);
 void      fw_cluster_free(fw_cluster *c);
 
-/* When the force of the structure on a floe vanishes at its present slope, after t0 [s]; INFINITY: it does not fall. It falls almost
- * linearly as the current carries a floe round the structure. */
-double fw_cluster_fades_in(const fw_cluster *c, const fw_pair *p);
+/* When in the tried step, at the latest at its end, does the structure's force on a floe vanish [s after t0]? It presses at t0 and not at t1.
+ * A parabola through the force and its slope at t0 and the first stage without force. */
+double fw_cluster_lets_go(const fw_cluster *c, const fw_pair *p, const fw_method *me);
 
 /* books.c: of the tried step */
 void fw_books_keep(const fw_cluster *c, const fw_books *b);

@@ -363,8 +363,9 @@ static fw_status close_others(fw_kernel *k, fw_cluster *c, fw_msg *m)
             if (e->is_closed || e->j == FW_ICE || (e->j >= 0 && (e->i != body || k->traffic.seats[e->j].cluster != c)))
                 continue;
             const fw_member *a = &c->members[i], *b = e->j >= 0 ? &c->members[k->traffic.seats[e->j].member] : NULL;
-            double dx = b ? a->x0 - b->x0 : a->x0, dy = b ? a->y0 - b->y0 : a->y0, r = fw_length(dx, dy);
-            double ux = b ? a->v0[0] - b->v0[0] : a->v0[0], uy = b ? a->v0[1] - b->v0[1] : a->v0[1];
+            double dx = a->y0[FW_X], dy = a->y0[FW_Y], ux = a->y0[FW_VX], uy = a->y0[FW_VY];
+            if (b) dx -= b->y0[FW_X], dy -= b->y0[FW_Y], ux -= b->y0[FW_VX], uy -= b->y0[FW_VY];
+            double r = fw_length(dx, dy);
             double gap = r - a->radius - (b ? b->radius : set->structure_radius), closing = -(dx * ux + dy * uy) / r;
             bool   is_laid = fabs(gap) <= 1e-11 * a->radius && closing > -1e-9 * set->velocity_scale;
             if (!is_laid && !(closing > 0 && fabs(gap) <= acceptable_gap(k, e, closing))) continue;

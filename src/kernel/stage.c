@@ -10,78 +10,77 @@
 
 enum { MAX_SWEEPS = 400 };
 
-static double relative_speed(const fw_setup *s, const double v[3])
+static inline double relative_speed(const fw_setup *s, double vx, double vy)
 {
-    double rx = s->speed - v[0];
-    return sqrt(rx * rx + v[1] * v[1]);
+    double rx = s->speed - vx;
+    return sqrt(rx * rx + vy * vy);
 }
 
 /* Normal and overlap of two discs whose centres are (dx, dy) apart. */
 static inline void geometry(double dx, double dy, double reach, double *nx, double *ny, double *depth)
 {
-    double r2 = dx * dx + dy * dy, r = sqrt(r2), inv = r > 0 ? 1 / r : 0;
-    *nx = r > 0 ? dx * inv : -1, *ny = dy * inv;
+    double r2 = dx * dx + dy * dy, r = sqrt(r2), inv = 1 / r;
+    if (!(r > 0)) dx = -1, dy = 0, inv = 1; /* one centre on the other: any direction will do */
+    *nx = dx * inv, *ny = dy * inv;
     *depth = (reach * reach - r2) / (reach + r); /* reach - r without cancellation */
 }
 
-/* Closing rate and slip of a pair for velocities va (member a) and vb (member b or NULL for the structure). */
+/* Closing rate and slip of a pair for velocities va and vb, (x, y, spin). */
 static inline double closing(const fw_pair *p, const double *va, const double *vb)
 {
-    double ux = va[0], uy = va[1];
-    if (vb) ux -= vb[0], uy -= vb[1];
-    return -(p->nx * ux + p->ny * uy);
+    return -(p->nx * (va[0] - vb[0]) + p->ny * (va[1] - vb[1]));
 }
-static inline double slipping(const fw_pair *p, const double *va, const double *vb, double ra, double rb)
+static inline double slipping(const fw_pair *p, const double *va, const double *vb)
 {
-    double ux = va[0], uy = va[1], turn = ra * va[2];
-    if (vb) ux -= vb[0], uy -= vb[1], turn += rb * vb[2];
-    return p->nx * uy - p->ny * ux - turn; /* t = (-ny, nx) */
+    /* t = (-ny, nx) */
+    return p->nx * (va[1] - vb[1]) - p->ny * (va[0] - vb[0]) - (p->ma->radius * va[2] + p->mb->radius * vb[2]);
 }
 
 /* Add impulse (push along n, rub along t) to member a and take it from b. */
-static inline void shove(const fw_pair *p, fw_member *a, fw_member *b, double push, double rub)
+static inline void shove(const fw_pair *p, double push, double rub)
 {
-    double jx = push * p->nx - rub * p->ny, jy = push * p->ny + rub * p->nx;
-    a->V[0] += jx * a->inv_mass, a->V[1] += jy * a->inv_mass;
-    a->V[2] -= rub * a->turn;
-    if (!b) return;
-    b->V[0] -= jx * b->inv_mass, b->V[1] -= jy * b->inv_mass;
-    b->V[2] -= rub * b->turn;
+    fw_member *a = p->ma, *b = p->mb;
+    double     jx = push * p->nx - rub * p->ny, jy = push * p->ny + rub * p->nx;
+    a->V[0] += jx * a->inv_mass, a->V[1] += jy * a->inv_mass, a->V[2] -= rub * a->turn;
+    b->V[0] -= jx * b->inv_mass, b->V[1] -= jy * b->inv_mass, b->V[2] -= rub * b->turn;
 }
 
-static inline fw_member *partner(fw_cluster *c, const fw_pair *p) { return p->b == FW_WALL ? NULL : &c->members[p->b]; }
-
-static void forces_now(fw_cluster *c, const fw_setup *set, fw_pair *p)
+/* Members may have moved in memory since the last time. */
+static void point_to_members(fw_cluster *c, const fw_setup *set)
 {
-    const fw_member *a = &c->members[p->a], *b = partner(c, p);
-    geometry(b ? a->x0 - b->x0 : a->x0, b ? a->y0 - b->y0 : a->y0, a->radius + (b ? b->radius : set->structure_radius),
-             &p->nx, &p->ny, &p->depth[0]);
-    p->rate[0] = closing(p, a->v0, b ? b->v0 : NULL);
-    p->slip[0] = slipping(p, a->v0, b ? b->v0 : NULL, a->radius, b ? b->radius : 0);
-    p->normal[0] = fw_contact_normal(&p->law, p->depth[0], p->rate[0]);
-    p->friction[0] = fw_contact_friction(&p->law, p->normal[0], p->slip[0]);
-    p->dir[0][0] = p->nx, p->dir[0][1] = p->ny;
+    c->wall.radius = set->structure_radius;
+    for (size_t k = 0; k < c->n_pairs; k++) {
+        fw_pair *p = &c->pairs[k];
+        p->ma = &c->members[p->a];
+        p->mb = p->b == FW_WALL ? &c->wall : &c->members[p->b];
+    }
 }
 
 void fw_stage_start(fw_cluster *c, const fw_books *books)
 {
     const fw_setup *set = books->setup;
+    point_to_members(c, set);
     for (size_t i = 0; i < c->n_members; i++) {
-        fw_member *m = &c->members[i];
-        double     k = m->drag_per_mass * relative_speed(set, m->v0);
-        m->drag[0][0] = k * (set->speed - m->v0[0]), m->drag[0][1] = -k * m->v0[1];
-        m->a[0][0] = m->drag[0][0], m->a[0][1] = m->drag[0][1], m->a[0][2] = 0;
-        for (int q = 0; q < 3; q++) m->v[0][q] = m->v0[q];
+        fw_member    *m = &c->members[i];
+        const double *v = m->y0 + FW_VX;
+        double        rate = m->drag_per_mass * relative_speed(set, v[0], v[1]);
+        m->drag[0][0] = rate * (set->speed - v[0]), m->drag[0][1] = -rate * v[1];
+        for (int q = 0; q < 4; q++) m->k[0][q] = v[q];
+        m->k[0][FW_VX] = m->drag[0][0], m->k[0][FW_VY] = m->drag[0][1], m->k[0][FW_SPIN] = 0;
     }
     for (size_t k = 0; k < c->n_pairs; k++) {
-        fw_pair *p = &c->pairs[k];
-        forces_now(c, set, p);
-        fw_member *a = &c->members[p->a], *b = partner(c, p);
+        fw_pair      *p = &c->pairs[k];
+        fw_member    *a = p->ma, *b = p->mb;
+        const double *va = a->y0 + FW_VX, *vb = b->y0 + FW_VX;
+        geometry(a->y0[FW_X] - b->y0[FW_X], a->y0[FW_Y] - b->y0[FW_Y], a->radius + b->radius, &p->nx, &p->ny, &p->depth[0]);
+        p->rate[0] = closing(p, va, vb), p->slip[0] = slipping(p, va, vb);
+        p->normal[0] = fw_contact_normal(&p->law, p->depth[0], p->rate[0]);
+        p->friction[0] = fw_contact_friction(&p->law, p->normal[0], p->slip[0]);
+        p->dir[0][0] = p->nx, p->dir[0][1] = p->ny;
         double fx = p->normal[0] * p->nx - p->friction[0] * p->ny, fy = p->normal[0] * p->ny + p->friction[0] * p->nx;
-        a->a[0][0] += fx * a->own_inv_mass, a->a[0][1] += fy * a->own_inv_mass, a->a[0][2] -= p->friction[0] * a->turn;
-        if (b)
-            b->a[0][0] -= fx * b->own_inv_mass, b->a[0][1] -= fy * b->own_inv_mass,
-                b->a[0][2] -= p->friction[0] * b->turn;
+        a->k[0][FW_VX] += fx * a->own_inv_mass, a->k[0][FW_VY] += fy * a->own_inv_mass;
+        b->k[0][FW_VX] -= fx * b->own_inv_mass, b->k[0][FW_VY] -= fy * b->own_inv_mass;
+        a->k[0][FW_SPIN] -= p->friction[0] * a->turn, b->k[0][FW_SPIN] -= p->friction[0] * b->turn;
     }
     books->world->ledger.force_evaluations += (double)c->n_pairs;
 }
@@ -92,9 +91,8 @@ static inline void free_velocity(const fw_setup *set, fw_member *m, double hg, d
     m->drag_rate = m->drag_per_mass * speed;
     m->resistance = 1 + hg * m->drag_rate;
     double f = 1 / m->resistance;
-    m->V[0] = (m->vr[0] + hg * m->drag_rate * set->speed) * f;
-    m->V[1] = m->vr[1] * f;
-    m->V[2] = m->vr[2];
+    m->V[0] = (m->r[FW_VX] + hg * m->drag_rate * set->speed) * f;
+    m->V[1] = m->r[FW_VY] * f;
     m->ease = f;
     m->inv_mass = m->own_inv_mass * f;
 }
@@ -102,63 +100,46 @@ static inline void free_velocity(const fw_setup *set, fw_member *m, double hg, d
 static void predict(fw_cluster *c, const fw_setup *set, size_t s, double h)
 {
     const fw_method *me = set->method;
-    double           hg = h * me->gamma, ahead = (me->c[s] - me->c[s - 1]) * h;
+    double           hg = h * me->gamma, ahead = (me->c[s] - me->c[s - 1]) * h, ha[FW_MAX_STAGES];
+    for (size_t j = 0; j < s; j++) ha[j] = h * me->a[s][j];
     for (size_t i = 0; i < c->n_members; i++) {
         fw_member *m = &c->members[i];
-        double     x = m->x0, y = m->y0, v[3] = {m->v0[0], m->v0[1], m->v0[2]};
-        for (size_t j = 0; j < s; j++) {
-            double ha = h * me->a[s][j];
-            x += ha * m->v[j][0], y += ha * m->v[j][1];
-            for (int q = 0; q < 3; q++) v[q] += ha * m->a[j][q];
-        }
-        m->xr = x, m->yr = y;
-        for (int q = 0; q < 3; q++) {
-            m->vr[q] = v[q];
-            m->U[q] = m->v[s - 1][q] + ahead * m->a[s - 1][q];
-        }
-        m->X = x + hg * m->U[0], m->Y = y + hg * m->U[1];
-        free_velocity(set, m, hg, relative_speed(set, m->U));
+        double     r[8];
+        for (int q = 0; q < 8; q++) r[q] = m->y0[q];
+        for (size_t j = 0; j < s; j++)
+            for (int q = 0; q < 8; q++) r[q] += ha[j] * m->k[j][q];
+        for (int q = 0; q < 8; q++) m->r[q] = r[q];
+        for (int q = 0; q < 4; q++) m->U[q] = m->k[s - 1][q] + ahead * m->k[s - 1][4 + q];
+        m->X = r[FW_X] + hg * m->U[0], m->Y = r[FW_Y] + hg * m->U[1];
+        free_velocity(set, m, hg, relative_speed(set, m->U[0], m->U[1]));
+        m->V[2] = r[FW_SPIN];
     }
 }
 
 /* What a sweep would divide by, each time and in its chain of dependences. */
 static inline void prepare(fw_pair *p, double hg)
 {
-    p->to_push = hg / (1 + p->beta * hg * p->w_normal);
-    p->to_rub = -hg * p->law.ct / (1 + p->law.ct * hg * p->w_slip);
+    double n = 1 + p->beta * hg * p->w_normal, t = 1 + p->law.ct * hg * p->w_slip, inv = hg / (n * t); /* one division */
+    p->to_push = t * inv;
+    p->to_rub = -p->law.ct * n * inv;
 }
 
-static void linearise(fw_cluster *c, const fw_setup *set, size_t s, double hg)
+static void linearise(fw_cluster *c, size_t s, double hg)
 {
     for (size_t k = 0; k < c->n_pairs; k++) {
         fw_pair   *p = &c->pairs[k];
-        fw_member *a = &c->members[p->a], *b = partner(c, p);
-        geometry(b ? a->X - b->X : a->X, b ? a->Y - b->Y : a->Y, a->radius + (b ? b->radius : set->structure_radius),
-                 &p->nx, &p->ny, &p->depth_star);
-        p->rate_star = closing(p, a->U, b ? b->U : NULL);
+        fw_member *a = p->ma, *b = p->mb;
+        geometry(a->X - b->X, a->Y - b->Y, a->radius + b->radius, &p->nx, &p->ny, &p->depth_star);
+        p->rate_star = closing(p, a->U, b->U);
         p->alpha = p->law.k * (p->depth_star - hg * p->rate_star);
         p->beta = p->law.c + p->law.k * hg;
-        p->w_normal = a->inv_mass + (b ? b->inv_mass : 0);
-        p->w_slip = p->w_normal + a->radius * a->turn + (b ? b->radius * b->turn : 0);
+        p->w_normal = a->inv_mass + b->inv_mass;
+        p->w_slip = p->w_normal + a->radius * a->turn + b->radius * b->turn;
         prepare(p, hg);
-        /* Start from the force of the stage before. */
+        /* Start from the force of the stage before (a polynomial through all of them saves no sweep). */
         p->push = hg * p->normal[s - 1], p->rub = hg * p->friction[s - 1];
-        shove(p, a, b, p->push, p->rub);
+        shove(p, p->push, p->rub);
     }
-}
-
-static inline double sweep_pair(fw_pair *p, fw_member *a, fw_member *b)
-{
-    double free = closing(p, a->V, b ? b->V : NULL) + p->push * p->w_normal;
-    double push = (p->alpha + p->beta * free) * p->to_push;
-    if (!(push > 0)) push = 0;
-    double slip = slipping(p, a->V, b ? b->V : NULL, a->radius, b ? b->radius : 0) - p->rub * p->w_slip;
-    double cap = p->mu * push, rub = slip * p->to_rub;
-    rub = rub > cap ? cap : rub < -cap ? -cap : rub;
-    double dp = push - p->push, dr = rub - p->rub;
-    shove(p, a, b, dp, dr);
-    p->push = push, p->rub = rub;
-    return fw_larger(fabs(dp) * p->w_normal, fabs(dr) * p->w_slip);
 }
 
 /* One sweep; returns the largest change of a velocity. */
@@ -167,35 +148,41 @@ static double sweep(fw_cluster *c)
     double largest = 0;
     for (size_t k = 0; k < c->n_pairs; k++) {
         fw_pair *p = &c->pairs[k];
-        double   change = p->b == FW_WALL ? sweep_pair(p, &c->members[p->a], NULL)
-                                          : sweep_pair(p, &c->members[p->a], &c->members[p->b]);
-        largest = fw_larger(largest, change);
+        double   free = closing(p, p->ma->V, p->mb->V) + p->push * p->w_normal;
+        double   slip = slipping(p, p->ma->V, p->mb->V) - p->rub * p->w_slip;
+        double   push = (p->alpha + p->beta * free) * p->to_push, rub = slip * p->to_rub;
+        push = push > 0 ? push : 0;
+        double cap = p->mu * push;
+        rub = rub > cap ? cap : rub < -cap ? -cap : rub;
+        double dp = push - p->push, dr = rub - p->rub;
+        shove(p, dp, dr);
+        p->push = push, p->rub = rub;
+        largest = fw_larger(largest, fw_larger(fabs(dp) * p->w_normal, fabs(dr) * p->w_slip));
     }
     return largest;
 }
 
-/* Drag follows the solved velocity; impulses stay. Returns the largest change of a velocity. */
+/* Drag follows the solved velocity; impulses stay. Returns the largest change of a velocity that was worth it. */
 static double renew_drag(fw_cluster *c, const fw_setup *set, double hg, double enough)
 {
     double largest = 0;
     for (size_t i = 0; i < c->n_members; i++) {
         fw_member *m = &c->members[i];
-        double     speed = relative_speed(set, m->V);
+        double     speed = relative_speed(set, m->V[0], m->V[1]);
         /* what the new drag would change, to first order: most floes need no renewal */
         double change = hg * fabs(m->drag_per_mass * speed - m->drag_rate) * speed * m->ease;
         if (!(change > enough)) continue;
-        double jx = m->V[0] * m->resistance - (m->vr[0] + hg * m->drag_rate * set->speed),
-               jy = m->V[1] * m->resistance - m->vr[1], spin = m->V[2];
+        double jx = m->V[0] * m->resistance - (m->r[FW_VX] + hg * m->drag_rate * set->speed),
+               jy = m->V[1] * m->resistance - m->r[FW_VY];
         free_velocity(set, m, hg, speed);
-        m->V[0] += jx * m->ease, m->V[1] += jy * m->ease, m->V[2] = spin;
+        m->V[0] += jx * m->ease, m->V[1] += jy * m->ease;
         largest = fw_larger(largest, change);
     }
     if (largest > 0)
         for (size_t k = 0; k < c->n_pairs; k++) {
-            fw_pair         *p = &c->pairs[k];
-            const fw_member *a = &c->members[p->a], *b = partner(c, p);
-            double           was = p->w_normal;
-            p->w_normal = a->inv_mass + (b ? b->inv_mass : 0);
+            fw_pair *p = &c->pairs[k];
+            double   was = p->w_normal;
+            p->w_normal = p->ma->inv_mass + p->mb->inv_mass;
             p->w_slip += p->w_normal - was;
             prepare(p, hg);
         }
@@ -205,33 +192,31 @@ static double renew_drag(fw_cluster *c, const fw_setup *set, double hg, double e
 void fw_stage_solve(fw_cluster *c, const fw_books *books, size_t s, double h)
 {
     const fw_setup *set = books->setup;
-    double          hg = h * set->method->gamma, enough = set->solver_share * set->tolerance * set->velocity_scale;
+    double          hg = h * set->method->gamma, inv = 1 / hg;
+    bool            is_lone = c->n_pairs == 1;
+    /* A lone contact is solved by one sweep, so it may as well be solved well: what it leaves, error control pays for. */
+    double enough = (is_lone ? 0.1 : 1) * set->solver_share * set->tolerance * set->velocity_scale;
+    if (s == 1) point_to_members(c, set);
     predict(c, set, s, h);
-    linearise(c, set, s, hg);
+    linearise(c, s, hg);
     books->world->ledger.force_evaluations += (double)c->n_pairs;
     for (int n = 0; n < MAX_SWEEPS; n++) {
         double change = sweep(c);
-        if (c->n_pairs > 1 && !(change < enough) && n % 4 != 3) continue;
-        /* A lone contact is solved by one sweep. */
+        if (!is_lone && !(change < enough) && n % 4 != 3) continue;
         double drag = set->has_drag ? renew_drag(c, set, hg, enough) : 0;
-        if (!(drag > 0) && (change < enough || c->n_pairs == 1)) break;
+        if (!(drag > 0) && (change < enough || is_lone)) break;
     }
     for (size_t i = 0; i < c->n_members; i++) {
         fw_member *m = &c->members[i];
-        double     inv = 1 / hg;
-        for (int q = 0; q < 3; q++) {
-            m->v[s][q] = m->V[q];
-            m->a[s][q] = (m->V[q] - m->vr[q]) * inv;
-        }
+        for (int q = 0; q < 4; q++) m->k[s][q] = m->V[q], m->k[s][4 + q] = (m->V[q] - m->r[4 + q]) * inv;
         m->drag[s][0] = m->drag_rate * (set->speed - m->V[0]), m->drag[s][1] = -m->drag_rate * m->V[1];
     }
     for (size_t k = 0; k < c->n_pairs; k++) {
-        fw_pair         *p = &c->pairs[k];
-        const fw_member *a = &c->members[p->a], *b = partner(c, p);
-        p->normal[s] = p->push / hg;
-        p->friction[s] = p->rub / hg;
-        p->rate[s] = closing(p, a->V, b ? b->V : NULL);
-        p->slip[s] = slipping(p, a->V, b ? b->V : NULL, a->radius, b ? b->radius : 0);
+        fw_pair *p = &c->pairs[k];
+        p->normal[s] = p->push * inv;
+        p->friction[s] = p->rub * inv;
+        p->rate[s] = closing(p, p->ma->V, p->mb->V);
+        p->slip[s] = slipping(p, p->ma->V, p->mb->V);
         p->depth[s] = p->depth_star + hg * (p->rate[s] - p->rate_star);
         p->dir[s][0] = p->nx, p->dir[s][1] = p->ny;
     }

@@ -82,7 +82,7 @@ static void undisturbed_drift_is_exact(void **state)
 static void member_of_a_cluster(void **state)
 {
     (void)state;
-    fw_member  m = {.radius = 1, .x0 = 0, .y0 = 0, .v0 = {-1, 0, 0}, .x1 = 6, .y1 = 4, .v1 = {11, 4, 0}, .fastest = 20};
+    fw_member  m = {.radius = 1, .y0 = {0, 0, 0, 0, -1, 0}, .y1 = {6, 4, 0, 0, 11, 4}, .fastest = 20};
     fw_cluster c = {.t0 = 5, .t1 = 7, .members = &m, .n_members = 1};
     fw_path    p = fw_path_of_member(&SETUP, &c, &m);
     for (double t = 0; t <= 2; t += 0.25) {

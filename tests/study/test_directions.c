@@ -98,7 +98,7 @@ static void values_and_a_narrow_continuous_law_agree(void **state)
         size_t                     na, nb;
         const fw_direction_weight *wa = fw_directions_row(&a, 0, p, &na), *wb = fw_directions_row(&b, 0, p, &nb);
         assert_true(na == 2 && nb == 1);
-        size_t arc = b.used[wb[0].column], heavy = wa[0].weight > wa[1].weight ? 0 : 1;
+        size_t arc = b.used[wb[0].column], heavy = wa[0].weight > wa[1].weight ? 0u : 1u;
         assert_int_equal(a.used[wa[heavy].column], arc);
         CHECK_NEAR(wa[heavy].weight, 0.75, 1e-15);
     }
