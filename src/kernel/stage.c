@@ -133,6 +133,7 @@ static void linearise(fw_cluster *c, size_t s, double hg)
         p->rate_star = closing(p, a->U, b->U);
         p->alpha = p->law.k * (p->depth_star - hg * p->rate_star);
         p->beta = p->law.c + p->law.k * hg;
+        if (p->depth_star < 0 && !(p->normal[0] > 0)) p->alpha = p->beta = 0; /* parted, and not touched again yet */
         p->w_normal = a->inv_mass + b->inv_mass;
         p->w_slip = p->w_normal + a->radius * a->turn + b->radius * b->turn;
         prepare(p, hg);

@@ -25,7 +25,7 @@ typedef struct fw_ledger {
     double overlap_time;      /* [s] with any overlap beyond a tenth of the smaller radius */
     /* cost */
     double force_evaluations; /* one per contact and stage */
-    double steps, rejected, macro_steps, rebuilds, touches, late_touches, relinearised;
+    double steps, rejected, macro_steps, rebuilds, touches, late_touches;
 } fw_ledger;
 
 double fw_ledger_energy_relative(const fw_ledger *l);
