@@ -196,7 +196,7 @@ void fw_stage_solve(fw_cluster *c, const fw_books *books, size_t s, double h)
     double          hg = h * set->method->gamma, inv = 1 / hg;
     bool            is_lone = c->n_pairs == 1;
     /* A lone contact is solved by one sweep, so it may as well be solved well: what it leaves, error control pays for. */
-    double enough = (is_lone ? 0.1 : 1) * set->solver_share * set->tolerance * set->velocity_scale;
+    double enough = (is_lone ? 0.02 : 1) * set->solver_share * set->tolerance * set->velocity_scale;
     if (s == 1) point_to_members(c, set);
     predict(c, set, s, h);
     linearise(c, s, hg);
