@@ -137,8 +137,7 @@ static bool has_hole(const fw_pair *p, size_t last)
     return false;
 }
 
-/* Bound of |v - u| over the step: the cubic's velocity is a parabola, bounded by its control points v0, middle, v1. */
-static double fastest(const fw_member *m, double speed, double inv_h)
+double fw_member_fastest(const fw_member *m, double speed, double inv_h)
 {
     const double *v0 = m->y0 + FW_VX, *v1 = m->y1 + FW_VX;
     double        mx = 3 * (m->y1[FW_X] - m->y0[FW_X]) * inv_h - v0[0] - v1[0],
@@ -164,7 +163,7 @@ static double attempt(fw_cluster *c, const fw_books *books, double h)
             for (int q = 0; q < 4; q++) e[q] += me->e[s] * m->k[s][FW_VX + q];
         double err = h * fw_larger(fw_length(e[0], e[1]), m->radius * fabs(e[2]));
         if (!(err <= worst)) worst = err; /* keeps NaN */
-        m->fastest = fastest(m, set->speed, inv);
+        m->fastest = fw_member_fastest(m, set->speed, inv);
     }
     worst /= set->tolerance * set->velocity_scale;
     for (size_t k = 0; k < c->n_pairs; k++) {
@@ -258,6 +257,7 @@ static fw_status attempt_until_good(fw_cluster *c, const fw_books *books, double
 
 fw_status fw_cluster_try(fw_cluster *c, const fw_books *books, double limit, fw_msg *msg)
 {
+    if (fw_lone_is(c, books)) return fw_lone_try(c, books, limit, msg);
     const fw_setup *set = books->setup;
     double          left = limit - c->t0;
     if (!(c->h < INFINITY)) c->h = set->first_step / c->omega;
@@ -284,6 +284,7 @@ fw_status fw_cluster_try(fw_cluster *c, const fw_books *books, double limit, fw_
 
 fw_status fw_cluster_land(fw_cluster *c, const fw_books *books, double t, fw_msg *msg)
 {
+    if (fw_lone_is(c, books)) return fw_lone_land(c, books, t, msg);
     double err = attempt(c, books, t - c->t0);
     if (!isfinite(err)) return not_finite(c, books, msg);
     c->t1 = t;
@@ -326,8 +327,12 @@ fw_status fw_cluster_commit(fw_cluster *c, const fw_books *books, int32_t *opene
 {
     size_t last = books->setup->method->n_stages - 1;
     double h = c->t1 - c->t0;
-    fw_books_keep(c, books);
-    fw_books_wear(c, books);
+    if (fw_lone_is(c, books)) {
+        fw_lone_keep(c, books);
+    } else {
+        fw_books_keep(c, books);
+        fw_books_wear(c, books);
+    }
     books->world->ledger.steps++;
     c->t0 = c->t1;
     for (size_t k = 0; k < c->n_pairs; k++) {

@@ -11,6 +11,7 @@
 #include <math.h>
 
 #include "kernel/kernel.h"
+#include "kernel/lone.h"
 
 /* Where a floe's position and velocity stand in an array of eight: a vector unit's two words. */
 enum { FW_X = 0, FW_Y = 1, FW_VX = 4, FW_VY = 5, FW_SPIN = 6 };
@@ -66,6 +67,7 @@ typedef struct fw_cluster {
     size_t     n_members, member_capacity, n_pairs, pair_capacity;
     fw_member *members;
     fw_pair   *pairs;
+    fw_lone    lone; /* the tried step of a lone floe on the structure */
 } fw_cluster;
 
 /* Where committed steps leave their traces. */
@@ -103,6 +105,9 @@ void      fw_cluster_free(fw_cluster *c);
 /* When in the tried step, at the latest at its end, does the structure's force on a floe vanish [s after t0]? It presses at t0 and not at t1.
  * A parabola through the force and its slope at t0 and the first stage without force. */
 double fw_cluster_lets_go(const fw_cluster *c, const fw_pair *p, const fw_method *me);
+
+/* Bound of |v - u| over a tried step: the cubic's velocity is a parabola, bounded by its control points v0, middle, v1. */
+double fw_member_fastest(const fw_member *m, double speed, double inv_h);
 
 /* books.c: of the tried step */
 void fw_books_keep(const fw_cluster *c, const fw_books *b);

@@ -24,6 +24,7 @@ typedef struct fw_setup {
     double           ice_density;   /* [kg/m3] of woken floes */
     double           drag_per_area; /* 1/2 rho_w Cf [kg/m3]: times D h gives fw_body.drag; 0 without drag */
     /* numerics */
+    bool             is_lone_exact; /* a lone floe on the structure by closed forms (lone.h) instead of the method */
     const fw_method *method;
     double           tolerance;       /* local error of velocity per sub-step over velocity_scale */
     double           wear_tolerance;  /* error of a step's wear over the wear of its touch so far */

@@ -1,6 +1,7 @@
 #include "realisation/accuracy.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 /* Step control for a wanted relative error of depth. Measured on the twelve reference scenes (tests/reference), first step 0.05/w,
  * growth 3; worst scene's error of depth / worst energy balance / force evaluations of all scenes:
@@ -39,6 +40,7 @@ void fw_accuracy_setup(fw_setup *s, const fw_model *m, double speed, double velo
         .ice_density = m->ice_density,
         .drag_per_area = has_drag ? 0.5 * m->water_density * m->form_drag : 0,
         .method = FW_METHOD_ARK3,
+        .is_lone_exact = !getenv("ESD"),
         .tolerance = blend(TABLE[r].tolerance, TABLE[r + 1].tolerance, f),
         .wear_tolerance = blend(TABLE[r].wear, TABLE[r + 1].wear, f),
         .velocity_scale = velocity_scale,
