@@ -220,6 +220,7 @@ static double turn_of_force(const fw_cluster *c, const fw_setup *set, bool *is_b
         else if (to < -0.2 * from && from > 0.1 * set->tolerance * p->law.c * set->velocity_scale)
             /* A little past it, so that the contact does open there: at 1.02 the remnant took a step of its own in half of all hits. */
             at = 1.2 * fw_cluster_lets_go(c, p, set->method);
+        if (at * p->law.omega <= SHORTEST) continue; /* the step's start itself: force is back already */
         if (at < first) first = at, *is_back = from <= 0;
     }
     return first;

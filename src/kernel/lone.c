@@ -1,3 +1,24 @@
+/* One floe on the structure, by closed forms. Such floes are nearly all the work of a thin field.
+ *
+ * In polar coordinates about the structure (d overlap, u = d', v along the wall, r distance of the centres, s = v - R w slip; forces as
+ * in cluster.c) what is stiff is linear, with constant coefficients between two events, and what is left is slow:
+ *
+ *     d'' + (c/m) d' + (k/m) d = g(t)              g = -v^2/r - Fn/m       while pressed, else  d'' = g
+ *     s' = Ft/m_s + f(t)                           f = Fw/m + u v/r        1/m_s = 1/m + R^2/I
+ *     p' = (1 - a) f(t),  p = v - a s              a = m_s/m: friction cannot change p
+ *     angle' = v/r
+ *
+ * Fn, Fw: drag outward and along the wall; N = k d + c u. Friction, one of three:
+ *     viscous   Ft = -ct s                         s' = -q s + f,  q = ct/m_s
+ *     sliding   Ft = -sign(s) mu N                 s' = -sign(s) (mu/a) (g - u') + f: N/m = g - u', so s follows from u
+ *     none      no force, mu = 0 or ct = 0
+ *
+ * g and f are parabolas over a step through its ends and its middle, where they are found in sweeps (Picard): each sweep solves all
+ * of the above exactly for the forcing of the sweep before. A step so follows a whole impact at any stiffness and any damping ratio; its
+ * length is set by how drag changes, some 1/w after a touch and ten times that while the floe rolls. It ends where another form begins to
+ * hold: N falls to zero or comes back, the rims part, slip leaves or reaches Coulomb's cap. Those instants are roots of the closed forms.
+ *
+ * Good for one contact only: a second one couples two normals that turn against each other, and that is the method of stage.c. */
 #include "kernel/lone.h"
 
 #include <float.h>
@@ -8,110 +29,101 @@
 #include "geometry/ring.h"
 #include "kernel/cluster.h"
 
-enum { N = FW_LONE_NODES, TERMS = FW_LONE_TERMS, PIECE = 5, MAX_SWEEPS = 6 };
+static double K_(const char *n, double d) { const char *s = getenv(n); return s ? atof(s) : d; }
+#define K(n, d) ({ static double v_ = -1e300; if (v_ == -1e300) v_ = K_(n, d); v_; })
 
-#define A1 0.27639320225002106
-#define A2 0.7236067977499789
-static const double NODE[N] = {0, A1, A2, 1}, WEIGHT[N] = {1.0 / 12, 5.0 / 12, 5.0 / 12, 1.0 / 12};
-static const double TO_POWER[N][N] = {{1, 0, 0, 0},
-                                      {-6, 8.0901699437494745, -3.0901699437494745, 1},
-                                      {10, -19.270509831248422, 14.270509831248424, -5},
-                                      {-5, 11.180339887498949, -11.180339887498949, 5}};
-static const double LEGENDRE[N] = {-0.05, 0.6, -1.5, 1};
-static const double NODE5[PIECE] = {0, 0.17267316464601146, 0.5, 0.8273268353539885, 1};
-static const double WEIGHT5[PIECE] = {0.05, 49.0 / 180, 16.0 / 45, 49.0 / 180, 0.05};
+enum { TERMS = FW_LONE_TERMS, PIECE = 5, MAX_CUTS = 40 };
+
+/* Below this rate x span a power series is exact to rounding, and the closed form would cancel. */
 static const double SHORT = 0.3;
-
-static double K(const char *n, double d) { const char *s = getenv(n); return s ? atof(s) : d; }
+static const double SHORTEST = 1e-9; /* steps below this, in 1/w, are taken whatever their error */
+/* Forces below this share of m w x velocity scale are zero: their slope says what comes. */
+static const double TINY = 1e-10;
 
 bool fw_lone_is(const fw_cluster *c, const fw_books *b)
 {
     return b->setup->is_lone_exact && c->n_pairs == 1 && c->n_members == 1 && c->pairs[0].b == FW_WALL;
 }
 
-static inline double integral(const double *c, double x)
-{
-    return x * (c[0] + x * (c[1] * 0.5 + x * (c[2] * (1.0 / 3) + x * c[3] * 0.25)));
-}
-static inline double integral2(const double *c, double x)
-{
-    return x * x * (c[0] * 0.5 + x * (c[1] * (1.0 / 6) + x * (c[2] * (1.0 / 12) + x * c[3] * 0.05)));
-}
+/* --- closed forms ----------------------------------------------------------------------------------------------------- */
 
-/* e^{-at} cosh, e^{-at} sinh / beta */
-typedef struct wave {
-    double c, s, q;
-} wave;
+/* What decays since the step's start: e^(-t c/2m) times cosh(bt) and sinh(bt)/b, b^2 = split (any sign), and e^(-qt). */
+typedef struct decay {
+    double cosh, sinh, slip;
+} decay;
 
-static wave wave_at(const fw_lone *L, double t)
+static decay decay_at(const fw_lone *L, double t)
 {
-    wave w = {0, 0, 0};
+    decay w = {0, 0, 0};
     if (L->presses && !L->is_short) {
         double x = L->split * t * t;
-        if (fabs(x) < 0.01) {
-            double e = exp(-L->decay * t);
-            w.c = e * (1 + x * (0.5 + x * (1.0 / 24 + x * (1.0 / 720 + x / 40320))));
-            w.s = e * t * (1 + x * (1.0 / 6 + x * (1.0 / 120 + x * (1.0 / 5040 + x / 362880))));
+        if (fabs(x) < 0.01) { /* near critical damping, whose double root needs no case of its own */
+            double e = exp(-L->half_damping * t);
+            w.cosh = e * (1 + x * (1.0 / 2 + x * (1.0 / 24 + x * (1.0 / 720 + x * (1.0 / 40320)))));
+            w.sinh = e * t * (1 + x * (1.0 / 6 + x * (1.0 / 120 + x * (1.0 / 5040 + x * (1.0 / 362880)))));
         } else if (x < 0) {
-            double b = sqrt(-L->split), e = exp(-L->decay * t);
-            w.c = e * cos(b * t), w.s = e * sin(b * t) / b;
+            double b = sqrt(-L->split), e = exp(-L->half_damping * t);
+            w.cosh = e * cos(b * t), w.sinh = e * sin(b * t) / b;
         } else {
-            double b = sqrt(L->split), slow = exp(-L->omega2 / (L->decay + b) * t), fast = exp(-(L->decay + b) * t);
-            w.c = 0.5 * (slow + fast), w.s = 0.5 * (slow - fast) / b;
+            double b = sqrt(L->split), fast = L->half_damping + b;
+            double e = exp(-L->omega2 / fast * t), f = exp(-fast * t); /* the slow root without cancellation */
+            w.cosh = 0.5 * (e + f), w.sinh = 0.5 * (e - f) / b;
         }
     }
-    if (L->rubs && L->slides == 0 && !L->is_short_slip) w.q = exp(-L->relax * t);
+    if (L->rubs && L->slides == 0 && !L->is_short_slip) w.slip = exp(-L->relaxation * t);
     return w;
 }
 
-static void particular_depth(const fw_lone *L, const double *g, double *P)
+static inline decay later(const fw_lone *L, decay a, decay b) /* at the sum of their times */
 {
-    double h = L->span, inv = 1 / (L->omega2 * h * h), ah = 2 * L->decay * h;
-    P[3] = h * h * g[3] * inv;
-    P[2] = (h * h * g[2] - 3 * ah * P[3]) * inv;
-    P[1] = (h * h * g[1] - 2 * ah * P[2] - 6 * P[3]) * inv;
-    P[0] = (h * h * g[0] - ah * P[1] - 2 * P[2]) * inv;
+    return (decay){a.cosh * b.cosh + L->split * a.sinh * b.sinh, a.sinh * b.cosh + a.cosh * b.sinh, a.slip * b.slip};
 }
-static void particular_slip(const fw_lone *L, const double *f, double *P)
+
+static inline double value(const double *c, double x) { return c[0] + x * (c[1] + x * c[2]); }
+static inline double integral(const double *c, double x) { return x * (c[0] + x * (0.5 * c[1] + x * (1.0 / 3) * c[2])); }
+static inline double integral_twice(const double *c, double x)
 {
-    double h = L->span, inv = 1 / (L->relax * h);
-    P[3] = h * f[3] * inv;
-    P[2] = (h * f[2] - 3 * P[3]) * inv;
-    P[1] = (h * f[1] - 2 * P[2]) * inv;
-    P[0] = (h * f[0] - P[1]) * inv;
+    return x * x * (0.5 * c[0] + x * ((1.0 / 6) * c[1] + x * (1.0 / 12) * c[2]));
 }
-static void series_depth(const fw_lone *L, const double *g, double d, double u, double *D)
+
+/* Overlap under a forcing: a parabola, or a series in t / span from (d, u). */
+static void solve_swing(const fw_lone *L, const double *push, double d, double u, double *P)
 {
-    double h = L->span, z2 = L->omega2 * h * h, ah = 2 * L->decay * h;
-    D[0] = d, D[1] = u * h;
+    double h2 = L->span * L->span, z2 = L->omega2 * h2, damping = 2 * L->half_damping * L->span;
+    if (!L->is_short) {
+        double inv = 1 / z2;
+        P[2] = h2 * push[2] * inv;
+        P[1] = (h2 * push[1] - 2 * damping * P[2]) * inv;
+        P[0] = (h2 * push[0] - damping * P[1] - 2 * P[2]) * inv;
+        return;
+    }
+    P[0] = d, P[1] = u * L->span;
     for (int n = 0; n + 2 < TERMS; n++)
-        D[n + 2] = ((n < N ? h * h * g[n] : 0) - ah * (n + 1) * D[n + 1] - z2 * D[n]) / ((n + 1) * (n + 2));
-}
-static void series_slip(const fw_lone *L, const double *f, double s, double *D)
-{
-    double h = L->span, qh = L->relax * h;
-    D[0] = s;
-    for (int n = 0; n + 1 < TERMS; n++) D[n + 1] = ((n < N ? h * f[n] : 0) - qh * D[n]) / (n + 1);
+        P[n + 2] = ((n < 3 ? h2 * push[n] : 0) - damping * (n + 1) * P[n + 1] - z2 * P[n]) / ((n + 1) * (n + 2));
 }
 
-static void fit(fw_lone *L)
+/* Likewise viscous slip. */
+static void solve_creep(const fw_lone *L, const double *drive, double s, double *P)
 {
-    if (L->presses) {
-        if (L->is_short)
-            series_depth(L, L->g, L->from.depth, L->from.rate, L->depth);
-        else
-            particular_depth(L, L->g, L->depth);
+    double h = L->span, z = L->relaxation * h;
+    if (!L->is_short_slip) {
+        double inv = 1 / z;
+        P[2] = h * drive[2] * inv;
+        P[1] = (h * drive[1] - 2 * P[2]) * inv;
+        P[0] = (h * drive[0] - P[1]) * inv;
+        return;
     }
-    if (L->rubs && L->slides == 0) {
-        if (L->is_short_slip)
-            series_slip(L, L->f, L->from.slip, L->slip);
-        else
-            particular_slip(L, L->f, L->slip);
-    }
+    P[0] = s;
+    for (int n = 0; n + 1 < TERMS; n++) P[n + 1] = ((n < 3 ? h * drive[n] : 0) - z * P[n]) / (n + 1);
 }
 
-/* Depth and rate from coefficients P, for a start d, u. */
-static inline void swing(const fw_lone *L, const double *P, double d, double u, double x, wave w, double *depth, double *rate)
+static void solve(fw_lone *L)
+{
+    if (L->presses) solve_swing(L, L->by.push, L->from.depth, L->from.rate, L->swing);
+    if (L->rubs && L->slides == 0) solve_creep(L, L->by.drive, L->from.slip, L->creep);
+}
+
+static inline void swing_at(const fw_lone *L, const double *P, double d, double u, double x, decay w, double *depth, double *rate)
 {
     double inv = 1 / L->span;
     if (L->is_short) {
@@ -120,97 +132,124 @@ static inline void swing(const fw_lone *L, const double *P, double d, double u, 
         *depth = y, *rate = s * inv;
         return;
     }
-    double y = P[0] + x * (P[1] + x * (P[2] + x * P[3])), s = (P[1] + x * (2 * P[2] + 3 * x * P[3])) * inv;
     double A = d - P[0], B = u - P[1] * inv;
-    *depth = y + A * w.c + (B + L->decay * A) * w.s;
-    *rate = s + B * w.c - (L->decay * B + L->omega2 * A) * w.s;
+    *depth = value(P, x) + A * w.cosh + (B + L->half_damping * A) * w.sinh;
+    *rate = (P[1] + 2 * x * P[2]) * inv + B * w.cosh - (L->half_damping * B + L->omega2 * A) * w.sinh;
 }
 
-static void state_at(const fw_lone *L, const fw_contact_constants *law, double t, fw_lone_state *y)
+static inline void creep_at(const fw_lone *L, const double *P, double s, double x, decay w, double driven, double *slip,
+                            double *slid)
+{
+    if (L->is_short_slip) {
+        double y = P[TERMS - 1], sum = y / TERMS;
+        for (int n = TERMS - 2; n >= 0; n--) y = y * x + P[n], sum = sum * x + P[n] / (n + 1);
+        *slip = y, *slid = sum * x * L->span;
+        return;
+    }
+    *slip = value(P, x) + (s - P[0]) * w.slip;
+    *slid = (driven - (*slip - s)) / L->relaxation;
+}
+
+static inline void state_at(const fw_lone *L, const fw_contact_constants *law, double t, decay w, fw_lone_state *y)
 {
     const fw_lone_state *o = &L->from;
-    double h = L->span, x = t / h;
-    double ig = h * integral(L->g, x), iff = h * integral(L->f, x), iig = h * h * integral2(L->g, x),
-           iif = h * h * integral2(L->f, x);
-    wave w = wave_at(L, t);
+    double               h = L->span, x = t / h;
+    double               pushed = h * integral(L->by.push, x), driven = h * integral(L->by.drive, x);
     if (L->presses)
-        swing(L, L->depth, o->depth, o->rate, x, w, &y->depth, &y->rate);
+        swing_at(L, L->swing, o->depth, o->rate, x, w, &y->depth, &y->rate);
     else
-        y->depth = o->depth + o->rate * t + iig, y->rate = o->rate + ig;
-    if (!L->rubs) {
-        y->slip = o->slip + iff, y->slid = o->slip * t + iif;
-    } else if (L->slides != 0) {
-        double k = L->slides * L->kick;
-        y->slip = o->slip - k * (ig - (y->rate - o->rate)) + iff;
-        y->slid = o->slip * t - k * (iig - (y->depth - o->depth - o->rate * t)) + iif;
-    } else if (L->is_short_slip) {
-        double s = L->slip[TERMS - 1], S = s / TERMS;
-        for (int n = TERMS - 2; n >= 0; n--) s = s * x + L->slip[n], S = S * x + L->slip[n] / (n + 1);
-        y->slip = s, y->slid = S * t;
+        y->depth = o->depth + o->rate * t + h * h * integral_twice(L->by.push, x), y->rate = o->rate + pushed;
+    if (L->rubs && L->slides == 0) {
+        creep_at(L, L->creep, o->slip, x, w, driven, &y->slip, &y->slid);
     } else {
-        const double *P = L->slip;
-        y->slip = P[0] + x * (P[1] + x * (P[2] + x * P[3])) + (o->slip - P[0]) * w.q;
-        y->slid = (iff - (y->slip - o->slip)) / L->relax;
+        y->slip = o->slip + driven, y->slid = o->slip * t + h * h * integral_twice(L->by.drive, x);
+        if (L->rubs) {
+            double kick = L->slides * L->kick, rise = y->depth - o->depth - o->rate * t;
+            y->slip -= kick * (pushed - (y->rate - o->rate));
+            y->slid -= kick * (h * h * integral_twice(L->by.push, x) - rise);
+        }
     }
-    y->carried = o->carried + (1 - L->share) * iff;
-    y->along = y->carried + L->share * y->slip;
+    y->along = L->carried + (1 - L->share) * driven + L->share * y->slip;
     y->reach = o->reach - (y->depth - o->depth);
-    y->turn = h * integral(L->round, x) + L->share * y->slid / y->reach;
+    y->turn = h * integral(L->by.orbit, x) + L->share * y->slid / y->reach;
     y->normal = law->k * y->depth + law->c * y->rate;
 }
 
-/* Drag per mass along the normal (outward) and along the wall. */
-static inline void drag_at(const fw_lone *L, double speed, double per_mass, const fw_lone_state *y, double *fn, double *ft)
-{
-    double c = cos(y->turn), s = sin(y->turn), nx = L->nx * c - L->ny * s, ny = L->nx * s + L->ny * c;
-    double wn = speed * nx + y->rate, wt = -speed * ny - y->along, rate = per_mass * sqrt(wn * wn + wt * wt);
-    *fn = rate * wn, *ft = rate * wt;
-}
+/* --- forcing ---------------------------------------------------------------------------------------------------------- */
 
-static inline void force(const fw_lone *L, double speed, double per_mass, const fw_lone_state *y, double *g, double *f,
-                         double *round)
+/* The normal after a turn. */
+static inline void normal_at(const fw_lone *L, double turn, double *nx, double *ny)
 {
-    double fn, ft, inv = 1 / y->reach, w = y->along * inv;
-    drag_at(L, speed, per_mass, y, &fn, &ft);
-    *g = -y->along * w - fn, *f = ft + y->rate * w;
-    *round = inv * (y->carried - L->share * y->rate * y->slid * inv);
-}
-
-static void to_powers(const double *v, double *c)
-{
-    for (int k = 0; k < N; k++) {
-        c[k] = 0;
-        for (int j = 0; j < N; j++) c[k] += TO_POWER[k][j] * v[j];
+    double c, s, x = turn * turn;
+    if (x < 0.0625) { /* cheaper than the library's, and as exact here */
+        s = turn * (1 - x * (1.0 / 6 - x * (1.0 / 120 - x * (1.0 / 5040 - x * (1.0 / 362880 - x * (1.0 / 39916800))))));
+        c = 1 - x * (1.0 / 2 - x * (1.0 / 24 - x * (1.0 / 720 - x * (1.0 / 40320 - x * (1.0 / 3628800)))));
+    } else {
+        s = sin(turn), c = cos(turn);
     }
+    *nx = L->nx * c - L->ny * s, *ny = L->nx * s + L->ny * c;
 }
 
-static void start(fw_lone *L, const fw_cluster *c, const fw_books *b)
+/* Drag per mass, outward and along the wall. */
+static inline void drag_at(double speed, double per_mass, double nx, double ny, const fw_lone_state *y, double *out, double *along)
+{
+    double wn = speed * nx + y->rate, wt = -speed * ny - y->along, rate = per_mass * sqrt(wn * wn + wt * wt);
+    *out = rate * wn, *along = rate * wt;
+}
+
+/* Angle' = p/r + a s/r, and s may have decayed within a tenth of the step: with S its integral a s/r = (a S/r)' - a S u/r^2, so
+ * orbit = p/r - a S u/r^2 is slow again. */
+static inline void force(const fw_lone *L, double speed, double per_mass, const fw_lone_state *y, double *push, double *drive,
+                         double *orbit)
+{
+    double nx, ny, out, along, inv = 1 / y->reach, w = y->along * inv;
+    normal_at(L, y->turn, &nx, &ny);
+    drag_at(speed, per_mass, nx, ny, y, &out, &along);
+    *push = -y->along * w - out, *drive = along + y->rate * w;
+    *orbit = inv * (y->along - L->share * (y->slip + y->rate * y->slid * inv));
+}
+
+static inline void through(double at0, double middle, double end, double *c)
+{
+    c[0] = at0, c[1] = 4 * middle - 3 * at0 - end, c[2] = 2 * (at0 + end) - 4 * middle;
+}
+
+/* The parabola of the step before, seen from its end: what is expected of this one. */
+static void expect(const fw_lone *L, const double *was, double *c)
+{
+    double x = L->before_end, ratio = L->span / L->before_span;
+    c[1] = (was[1] + 2 * x * was[2]) * ratio, c[2] = was[2] * ratio * ratio;
+}
+
+/* --- one step --------------------------------------------------------------------------------------------------------- */
+
+static void start(fw_lone *L, const fw_cluster *c, const fw_setup *set)
 {
     const fw_member *m = &c->members[0];
     const fw_pair   *p = &c->pairs[0];
-    const fw_setup  *set = b->setup;
     const double    *v = m->y0 + FW_VX, w_slip = m->own_inv_mass + m->radius * m->turn;
     double           x = m->y0[FW_X], y = m->y0[FW_Y], r2 = x * x + y * y, r = sqrt(r2), reach = m->radius + set->structure_radius;
-    *L = (fw_lone){.nx = x / r, .ny = y / r};
-    fw_lone_state *o = &L->from;
-    o->reach = r, o->depth = (reach * reach - r2) / (reach + r);
+    fw_lone_state   *o = &L->from;
+    L->nx = x / r, L->ny = y / r;
+    o->reach = r, o->depth = (reach * reach - r2) / (reach + r); /* reach - r without cancellation */
     o->rate = -(L->nx * v[0] + L->ny * v[1]);
     o->along = L->nx * v[1] - L->ny * v[0];
     o->slip = o->along - m->radius * v[2];
-    L->share = m->own_inv_mass / w_slip;
-    o->carried = o->along - L->share * o->slip;
+    o->slid = o->turn = 0;
     o->normal = p->law.k * o->depth + p->law.c * o->rate;
-    L->decay = 0.5 * p->law.c * m->own_inv_mass, L->omega2 = p->law.k * m->own_inv_mass;
-    L->split = L->decay * L->decay - L->omega2;
-    L->relax = p->law.ct * w_slip, L->kick = p->mu / L->share;
+    L->share = m->own_inv_mass / w_slip;
+    L->carried = o->along - L->share * o->slip;
+    L->half_damping = 0.5 * p->law.c * m->own_inv_mass, L->omega2 = p->law.k * m->own_inv_mass;
+    L->split = L->half_damping * L->half_damping - L->omega2;
+    L->relaxation = p->law.ct * w_slip, L->kick = p->mu / L->share;
 }
 
-/* Which of the forms holds from the start on? Where a force is on the edge, its slope decides. */
-static void choose(fw_lone *L, const fw_pair *p, double inv_mass, double scale, double g, double f)
+/* Which forms hold from the start on? On the edge between two, where forces are continuous, the slope decides. */
+static void choose(fw_lone *L, const fw_pair *p, double inv_mass, double scale)
 {
-    const fw_lone_state *o = &L->from;
+    const fw_lone_state        *o = &L->from;
     const fw_contact_constants *law = &p->law;
-    double tiny = 1e-10 * law->k / law->omega * scale;
+    double                      tiny = TINY * law->k / law->omega * scale, g = L->by.push[0], f = L->by.drive[0];
     L->presses = o->normal > tiny || (o->normal > -tiny && law->k * o->rate + law->c * g > 0);
     L->rubs = L->presses && p->mu > 0 && law->ct > 0;
     L->slides = 0;
@@ -218,291 +257,327 @@ static void choose(fw_lone *L, const fw_pair *p, double inv_mass, double scale, 
     double n = fw_larger(o->normal, 0), over = law->ct * fabs(o->slip) - p->mu * n;
     double sign = o->slip > 0 ? 1 : o->slip < 0 ? -1 : f > 0 ? 1 : -1;
     if (fabs(over) <= tiny)
-        over = law->ct * sign * (f - L->relax * o->slip) - p->mu * (law->k * o->rate + law->c * (g - n * inv_mass));
+        over = law->ct * sign * (f - L->relaxation * o->slip) - p->mu * (law->k * o->rate + law->c * (g - n * inv_mass));
     if (over > 0) L->slides = sign;
 }
 
-/* How far inside its regime the state is; negative: past the edge [N]. i = 0, 1. */
-static double margin(const fw_lone *L, const fw_pair *p, const fw_lone_state *y, int i)
+/* How far inside its form the floe is [N]: negative past the edge. i = 0: force or none; 1: friction, or parting. */
+static inline double margin(const fw_lone *L, const fw_pair *p, const fw_lone_state *y, int i)
 {
-    if (!L->presses) {
-        if (i == 0) return -y->normal;
-        return y->rate < 0 ? p->law.k * y->depth : 1;
-    }
+    if (!L->presses) return i == 0 ? -y->normal : y->rate < 0 ? p->law.k * y->depth : 1;
     if (i == 0) return y->normal;
     if (!L->rubs) return 1;
-    return L->slides != 0 ? L->slides * p->law.ct * y->slip - p->mu * y->normal : p->mu * y->normal - p->law.ct * fabs(y->slip);
+    return L->slides != 0 ? L->slides * p->law.ct * y->slip - p->mu * y->normal
+                          : p->mu * y->normal - p->law.ct * fabs(y->slip);
 }
 
-static double root(const fw_lone *L, const fw_pair *p, int i, double a, double fa, double b, double fb)
+static double margin_at(const fw_lone *L, const fw_pair *p, double t, int i)
 {
     fw_lone_state y;
-    for (int n = 0; n < 40 && !(fa > 0); n++) { /* the start itself lies on the edge */
-        double x = a + 0.25 * (b - a);
-        state_at(L, &p->law, x, &y);
-        double fx = margin(L, p, &y, i);
+    state_at(L, &p->law, t, decay_at(L, t), &y);
+    return margin(L, p, &y, i);
+}
+
+/* When does margin i vanish between a, where it is fa, and b, where it is fb < 0? False position, Illinois variant. */
+static double edge(const fw_lone *L, const fw_pair *p, int i, double a, double fa, double b, double fb)
+{
+    for (int n = 0; n < 40 && !(fa > 0); n++) { /* the step begins on that edge and leaves it: it comes back later */
+        double x = a + 0.25 * (b - a), fx = margin_at(L, p, x, i);
         if (fx > 0)
             a = x, fa = fx;
         else
             b = x, fb = fx;
     }
     if (!(fa > 0)) return b;
-    double hi = b, fhi = fb, side = 0;
-    for (int n = 0; n < 60 && hi - a > 1e-14 * hi; n++) {
-        double x = hi - fhi * (hi - a) / (fhi - fa);
-        if (!(x > a && x < hi)) x = 0.5 * (a + hi);
-        state_at(L, &p->law, x, &y);
-        double fx = margin(L, p, &y, i);
+    int side = 0;
+    for (int n = 0; n < 60 && b - a > 1e-14 * b; n++) {
+        double x = b - fb * (b - a) / (fb - fa);
+        if (!(x > a && x < b)) x = 0.5 * (a + b);
+        double fx = margin_at(L, p, x, i);
         if (fx == 0) return x;
         if (fx > 0) {
             a = x, fa = fx;
-            if (side > 0) fhi *= 0.5;
+            if (side > 0) fb *= 0.5;
             side = 1;
         } else {
-            hi = x, fhi = fx;
+            b = x, fb = fx;
             if (side < 0) fa *= 0.5;
             side = -1;
         }
     }
-    return hi;
+    return b;
 }
 
-static double first_event(const fw_lone *L, const fw_pair *p, const fw_lone_state *at)
+/* First edge within the span; INFINITY: none. at: states at start, middle and end. */
+static double first_edge(const fw_lone *L, const fw_pair *p, const fw_lone_state *at)
 {
-    double before[2] = {margin(L, p, &at[0], 0), margin(L, p, &at[0], 1)}, first = INFINITY;
-    for (int j = 1; j < N; j++) {
+    for (int j = 1; j < 3; j++) {
+        double first = INFINITY;
         for (int i = 0; i < 2; i++) {
-            double now = margin(L, p, &at[j], i);
-            if (now < 0) first = fw_smaller(first, root(L, p, i, NODE[j - 1] * L->span, before[i], NODE[j] * L->span, now));
-            before[i] = now;
+            double now = margin(L, p, &at[j], i), before = margin(L, p, &at[j - 1], i);
+            if (now < 0) first = fw_smaller(first, edge(L, p, i, 0.5 * (j - 1) * L->span, before, 0.5 * j * L->span, now));
         }
-        if (first < INFINITY) break;
+        if (first < INFINITY) return first;
     }
-    return first;
+    return INFINITY;
+}
+
+/* What the forcing's curvature does to rate and slip by the end: as much as a straight forcing would be wrong. The part of a parabola that no
+ * straight line has is the second Legendre polynomial. */
+static void curvature(const fw_lone *L, decay end, double *rate, double *slip)
+{
+    double push[3], drive[3], P[TERMS], depth, slid;
+    for (int k = 0; k < 3; k++) {
+        double legendre = k == 0 ? 1.0 / 6 : k == 1 ? -1 : 1;
+        push[k] = legendre * L->by.push[2], drive[k] = legendre * L->by.drive[2];
+    }
+    *rate = *slip = 0;
+    if (!L->presses) return;
+    solve_swing(L, push, 0, 0, P);
+    swing_at(L, P, 0, 0, 1, end, &depth, rate);
+    if (!L->rubs) return;
+    if (L->slides != 0) {
+        *slip = L->kick * *rate;
+        return;
+    }
+    solve_creep(L, drive, 0, P);
+    creep_at(L, P, 0, 1, end, 0, slip, &slid);
 }
 
 static double attempt(fw_cluster *c, const fw_books *b, double h, double *event)
 {
     const fw_setup *set = b->setup;
-    fw_lone        *L = &c->lone, old = *L;
+    fw_lone        *L = &c->lone;
     fw_member      *m = &c->members[0];
     fw_pair        *p = &c->pairs[0];
-    fw_lone_state   at[N], end = {0};
-    double          g[N], f[N], r[N], speed = set->speed, drag = m->drag_per_mass;
-    start(L, c, b);
-    L->span = h;
+    fw_lone_state   at[3], last = {0};
+    double          g[3], f[3], o[3], speed = set->speed, drag = m->drag_per_mass, tol = K("LT", 1) * set->tolerance * set->velocity_scale;
+    start(L, c, set);
     at[0] = L->from;
-    force(L, speed, drag, &at[0], &g[0], &f[0], &r[0]);
-    b->world->ledger.force_evaluations++;
-    choose(L, p, m->own_inv_mass, set->velocity_scale, g[0], f[0]);
-    L->is_short = fw_larger(sqrt(L->omega2), 2 * L->decay) * h < SHORT;
-    L->is_short_slip = L->relax * h < SHORT;
-    (void)old;
-    L->g[0] = g[0], L->f[0] = f[0], L->round[0] = r[0];
-    double tol = set->tolerance * set->velocity_scale, change = INFINITY;
-    int sweeps = (int)K("SWEEPS", 3);
-    for (int n = 0; n < MAX_SWEEPS; n++) {
-        fit(L);
-        end = at[N - 1];
-        for (int j = 1; j < N; j++) {
-            state_at(L, &p->law, NODE[j] * h, &at[j]);
-            force(L, speed, drag, &at[j], &g[j], &f[j], &r[j]);
+    force(L, speed, drag, &at[0], &g[0], &f[0], &o[0]);
+    L->span = h;
+    L->by = (fw_lone_forcing){{g[0]}, {f[0]}, {o[0]}};
+    if (L->before_span > 0 && p->since_touch > 0) {
+        expect(L, L->before.push, L->by.push);
+        expect(L, L->before.drive, L->by.drive);
+        expect(L, L->before.orbit, L->by.orbit);
+    }
+    choose(L, p, m->own_inv_mass, set->velocity_scale);
+    L->is_short = fw_larger(p->law.omega, 2 * L->half_damping) * h < SHORT;
+    L->is_short_slip = L->relaxation * h < SHORT;
+    decay  middle = decay_at(L, 0.5 * h), end = later(L, middle, middle);
+    double change = INFINITY;
+    int    n = 0;
+    for (;; n++) {
+        solve(L);
+        if (n) last = at[2];
+        state_at(L, &p->law, h, end, &at[2]);
+        if (n) {
+            change = fw_larger(fabs(at[2].rate - last.rate), fw_larger(fabs(at[2].along - last.along), fabs(at[2].slip - last.slip)));
+            if (!(change > K("CSTOP", 0.3) * tol) || n >= (int)K("SWEEPS", 3)) break;
         }
-        b->world->ledger.force_evaluations += N - 1;
-        to_powers(g, L->g), to_powers(f, L->f), to_powers(r, L->round);
-        if (n) change = fw_larger(fabs(at[N - 1].rate - end.rate), fw_larger(fabs(at[N - 1].along - end.along), fabs(at[N - 1].slip - end.slip)));
-        if (n + 1 >= sweeps || change < 0.05 * tol) break;
+        state_at(L, &p->law, 0.5 * h, middle, &at[1]);
+        for (int j = 1; j < 3; j++) force(L, speed, drag, &at[j], &g[j], &f[j], &o[j]);
+        through(g[0], g[1], g[2], L->by.push);
+        through(f[0], f[1], f[2], L->by.drive);
+        through(o[0], o[1], o[2], L->by.orbit);
     }
-    fit(L);
-    state_at(L, &p->law, h, &at[N - 1]);
-    /* what the highest term of the forcing does */
-    double e[TERMS], x[TERMS], ed = 0, en = 0, et = 0;
-    for (int k = 0; k < N; k++) e[k] = L->g[N - 1] * LEGENDRE[k], x[k] = L->f[N - 1] * LEGENDRE[k];
-    wave w = wave_at(L, h);
-    double P[TERMS];
-    if (!L->presses) {
-        en = 0; ed = 0;
-    } else if (L->is_short) {
-        series_depth(L, e, 0, 0, P);
-        swing(L, P, 0, 0, 1, w, &ed, &en);
-    } else {
-        particular_depth(L, e, P);
-        swing(L, P, 0, 0, 1, w, &ed, &en);
-    }
-    if (L->rubs && L->slides != 0)
-        et = L->kick * en;
-    else if (L->rubs) {
-        if (L->is_short_slip) {
-            series_slip(L, x, 0, P);
-            for (int k = TERMS - 1; k >= 0; k--) et += P[k];
-        } else {
-            particular_slip(L, x, P);
-            et = P[0] + P[1] + P[2] + P[3] - P[0] * w.q;
-        }
-    }
-    en = fabs(en) * K("EF", 1) + K("CF", 0.3) * fabs(at[N - 1].rate - end.rate), et = fabs(et) * K("EF", 1) + K("CF", 0.3) * fabs(at[N - 1].slip - end.slip);
-    double ev = K("CF", 0.3) * fabs(at[N - 1].along - end.along);
-    double err = fw_larger(en, fw_larger(et, ev)) / tol;
+    b->world->ledger.force_evaluations += 1 + 2 * n;
+    double en, et, ev = fabs(at[2].along - last.along);
+    curvature(L, end, &en, &et);
+    en = K("EF", 1) * fabs(en) + K("CF", 0.3) * fabs(at[2].rate - last.rate), et = K("EF", 1) * fabs(et) + K("CF", 0.3) * fabs(at[2].slip - last.slip);
+    double err = fw_larger(en, fw_larger(et, K("CF", 0.3) * ev)) / tol;
     if (L->presses) {
         double load = 0, wrong = 0;
-        for (int j = 0; j < N; j++) {
+        for (int j = 0; j < 3; j++) {
             const fw_lone_state *y = &at[j == 0 && p->since_touch == 0 ? 1 : j];
             if (!(y->normal > 0) || !(y->depth > 0)) continue;
-            double weight = WEIGHT[j] * h / sqrt(y->depth), slip = fabs(at[j].slip);
+            double weight = (j == 1 ? 4.0 / 6 : 1.0 / 6) * h / sqrt(y->depth), slip = fabs(at[j].slip);
             load += weight * y->normal * slip;
             wrong += weight * (p->law.c * en * slip + y->normal * et);
         }
-        if (p->load + load > 0) err = fw_larger(err, K("WF", 1) * wrong / (p->load + load) / set->wear_tolerance);
+        if (p->load + load > 0) err = fw_larger(err, wrong / (p->load + load) / (K("LW", 1) * set->wear_tolerance));
     }
-    double sum = at[N - 1].depth + at[N - 1].rate + at[N - 1].slip + at[N - 1].turn;
-    if (!isfinite(sum)) return NAN;
-    *event = first_event(L, p, at);
+    if (!isfinite(at[2].depth + at[2].rate + at[2].slip + at[2].along + at[2].turn)) return NAN;
+    *event = first_edge(L, p, at);
     return err;
 }
 
-/* The tried step ends after `length`: what others need to know of it. */
+/* The tried step ends after `length`: what the rest of the kernel needs to know of it. */
 static void finish(fw_cluster *c, const fw_books *b, double length)
 {
-    fw_lone   *L = &c->lone;
-    fw_member *m = &c->members[0];
-    fw_pair   *p = &c->pairs[0];
-    size_t     last = b->setup->method->n_stages - 1;
+    fw_lone      *L = &c->lone;
+    fw_member    *m = &c->members[0];
+    fw_pair      *p = &c->pairs[0];
+    size_t        last = b->setup->method->n_stages - 1;
+    double        nx, ny;
     fw_lone_state y;
     L->length = length;
-    state_at(L, &p->law, length, &y);
-    double co = cos(y.turn), si = sin(y.turn), nx = L->nx * co - L->ny * si, ny = L->nx * si + L->ny * co;
+    state_at(L, &p->law, length, decay_at(L, length), &y);
+    normal_at(L, y.turn, &nx, &ny);
     m->y1[FW_X] = y.reach * nx, m->y1[FW_Y] = y.reach * ny, m->y1[2] = m->y1[3] = 0;
     m->y1[FW_VX] = -y.rate * nx - y.along * ny, m->y1[FW_VY] = -y.rate * ny + y.along * nx;
     m->y1[FW_SPIN] = m->inv_inertia > 0 ? (y.along - y.slip) / m->radius : m->y0[FW_SPIN], m->y1[7] = 0;
     m->fastest = fw_member_fastest(m, b->setup->speed, 1 / length);
     p->depth[0] = L->from.depth, p->rate[0] = L->from.rate, p->slip[0] = L->from.slip;
-    p->normal[0] = L->presses ? fw_larger(0, L->from.normal) : 0;
     p->depth[last] = y.depth, p->rate[last] = y.rate, p->slip[last] = y.slip;
+    p->normal[0] = L->presses ? fw_larger(0, L->from.normal) : 0;
     p->normal[last] = L->presses ? fw_larger(0, y.normal) : 0;
-    /* the end at which rims part */
-    if (!L->presses && y.rate < 0 && y.depth <= 1e-12 * m->radius) p->depth[last] = fw_smaller(y.depth, -DBL_MIN);
-    double rub = !L->rubs ? 0 : L->slides != 0 ? -L->slides * p->mu * p->normal[last] : -p->law.ct * y.slip;
-    p->friction[last] = rub;
     p->dir[last][0] = nx, p->dir[last][1] = ny;
+    if (!L->presses && y.rate < 0 && y.depth <= 1e-12 * m->radius) /* the rims part: let_go() asks for less than nothing */
+        p->depth[last] = fw_smaller(y.depth, -DBL_MIN);
 }
 
 static fw_status not_finite(const fw_cluster *c, const fw_books *books, fw_msg *msg)
 {
-    return fw_fail(msg, FW_E_NUMERIC, "floe %llu is not finite at t = %.6g s",
+    return fw_fail(msg, FW_E_NUMERIC, "the state of floe %llu is not finite at t = %.6g s",
                    (unsigned long long)books->world->bodies[c->members[0].index].name, c->t0);
 }
+
+/* Error ~ h^3 of velocity in the mean between stiff and slow; the fourth root is the careful end of that, and cheap. */
+static double step_factor(double err) { return 0.9 / sqrt(sqrt(err)); }
 
 fw_status fw_lone_try(fw_cluster *c, const fw_books *b, double limit, fw_msg *msg)
 {
     const fw_setup *set = b->setup;
+    fw_lone        *L = &c->lone;
     fw_pair        *p = &c->pairs[0];
-    double          left = limit - c->t0, event = INFINITY, err, order = K("ORD", 4);
-    if (!(c->h < INFINITY) || p->since_touch == 0) c->h = K("H0", 1.0) / p->law.omega;
-    c->h = fw_smaller(c->h, set->max_step / p->law.omega);
+    double          left = limit - c->t0, omega = p->law.omega, event = INFINITY, err;
+    /* what is known of the forcing: only of the step that ended here */
+    bool follows = L->t0 + L->length == c->t0 && L->length > 0 && p->since_touch > 0;
+    L->before = L->by, L->before_span = follows ? L->span : 0, L->before_end = L->length / L->span;
+    L->t0 = c->t0;
+    if (!(c->h < INFINITY) || p->since_touch == 0) c->h = K("H0", 1) / omega;
+    c->h = fw_smaller(c->h, set->max_step / omega);
+    /* No sliver at the end: two halves instead. */
     double h = c->h >= left ? left : c->h > 0.5 * left ? 0.5 * left : c->h, wanted = c->h, tried = h;
     for (;;) {
         err = attempt(c, b, h, &event);
-        if (err <= 1 || h * p->law.omega <= 1e-9) break;
-        double f = isfinite(err) ? fw_larger(0.2, 0.9 * pow(err, -1 / order)) : 0.1;
-        f = fw_smaller(f, 0.9);
-        if (event * 1.05 < f * h && event * p->law.omega > 1e-9) f = event * 1.05 / h;
+        if (err <= 1 || h * omega <= SHORTEST) break;
+        double f = isfinite(err) ? fw_smaller(0.9, fw_larger(0.2, step_factor(err))) : 0.1;
+        if (event * 1.05 < f * h && event * omega > SHORTEST) f = event * 1.05 / h;
         h *= f;
         b->world->ledger.rejected++;
     }
     if (!isfinite(err)) return not_finite(c, b, msg);
     if (h < tried) wanted = h;
-    double f = err > 0 ? fw_smaller(set->growth, 0.9 * pow(err, -1 / order)) : set->growth;
+    double f = err > 0 ? fw_smaller(set->growth, step_factor(err)) : set->growth;
     c->h = h < wanted ? fw_larger(wanted, h * f) : h * f;
-    double length = event < h ? fw_larger(event, fw_smaller(h, 1e-9 / p->law.omega)) : h;
+    double length = event < h ? fw_larger(event, fw_smaller(h, SHORTEST / omega)) : h;
     finish(c, b, length);
     c->t1 = length == left ? limit : c->t0 + length;
-    if (getenv("TRACE")) fprintf(stderr, "t %.5f wt %.3f wh %.3f len %.3f err %.2e presses %d slides %g N %.4g s %.4g d %.4g u %.4g ct|s|/muN %.3g\n", c->t0, p->since_touch * p->law.omega, h * p->law.omega, length * p->law.omega, err, c->lone.presses, c->lone.slides, c->lone.from.normal, c->lone.from.slip, c->lone.from.depth, c->lone.from.rate, p->law.ct*fabs(c->lone.from.slip)/p->mu/c->lone.from.normal);
+    L->length = c->t1 - c->t0;
+    if (K("TRACE", 0) > 0) fprintf(stderr, "t %.5f wt %.3f wh %.3f len %.3f err %.2e presses %d slides %g N %.4g s %.4g d %.4g u %.4g ct|s|/muN %.3g\n", c->t0, p->since_touch * omega, h * omega, length * omega, err, L->presses, L->slides, L->from.normal, L->from.slip, L->from.depth, L->from.rate, p->law.ct*fabs(L->from.slip)/p->mu/L->from.normal);
     return FW_OK;
 }
 
 fw_status fw_lone_land(fw_cluster *c, const fw_books *b, double t, fw_msg *msg)
 {
     double h = t - c->t0, event;
+    /* An earlier end needs no new step: the forms hold at any time within the span. */
     if (!(h <= c->lone.span) && !isfinite(attempt(c, b, h, &event))) return not_finite(c, b, msg);
     finish(c, b, h);
     c->t1 = t;
     return FW_OK;
 }
 
-/* Books and wear of the tried step, in pieces. */
+/* --- books and wear --------------------------------------------------------------------------------------------------- */
+
+/* Instants between which the step is smooth enough for polynomials through five points, the overlap's a cubic. */
+static int cut_up(const fw_lone *L, const fw_pair *p, double wear_tolerance, double *cut)
+{
+    double h = L->length, omega = p->law.omega, fresh = 0, piece = K("PIECE", 0.5) / omega * sqrt(sqrt(wear_tolerance / 2e-4));
+    if (L->presses) {
+        fresh = fw_smaller(h, K("FRESH", 4) / omega);
+        if (!L->is_short) { /* how much of the state is still decaying */
+            double d = fabs(L->from.depth - L->swing[0]) + fabs(L->from.rate - L->swing[1] / L->span) / omega, s = 0;
+            if (L->rubs && L->slides == 0 && !L->is_short_slip) s = fabs(L->from.slip - L->creep[0]) / (fabs(L->creep[0]) + DBL_MIN);
+            double alive = fw_larger(d / (fabs(L->swing[0]) + DBL_MIN), s) / K("FRAC", 0.01);
+            fresh = alive > 1 ? fw_smaller(fresh, log(alive) / omega + piece) : 0;
+        }
+    }
+    int n = 0;
+    cut[0] = 0;
+    while (cut[n] < fresh && n < MAX_CUTS - 2) {
+        double t = cut[n] + piece + K("GRADE", 0.3) * (cut[n] + fw_smaller(p->since_touch, 3 / omega));
+        cut[++n] = t + 0.4 * piece > h ? h : t;
+    }
+    if (cut[n] < h) cut[++n] = h;
+    return n;
+}
+
 void fw_lone_keep(fw_cluster *c, const fw_books *b)
 {
-    const fw_setup *set = b->setup;
-    const fw_lone  *L = &c->lone;
-    fw_member      *m = &c->members[0];
-    fw_pair        *p = &c->pairs[0];
-    fw_body        *body = &b->world->bodies[m->index];
-    fw_ledger      *l = &b->world->ledger;
-    double          h = L->length, mass = 1 / m->own_inv_mass, omega = sqrt(L->omega2);
-    double          drag_work = 0, dashpot = 0, friction = 0, jx = 0, jy = 0, load = 0;
-    /* pieces */
-    double piece = K("PIECE", 0.7) / omega, fresh = L->presses ? fw_smaller(h, K("FRESH", 4) / omega) : 0;
-    if (L->presses && !L->is_short) {
-        double A = fabs(L->from.depth - L->depth[0]) + fabs(L->from.rate - L->depth[1] / L->span) / omega;
-        double S = 0;
-        if (L->rubs && L->slides == 0 && !L->is_short_slip) S = fabs(L->from.slip - L->slip[0]) / (fabs(L->slip[0]) + 1e-12);
-        double alive = fw_larger(A / fw_larger(fabs(L->depth[0]), 1e-9), S) / K("FRAC", 0.01);
-        fresh = alive > 1 ? fw_smaller(fresh, log(alive) / omega + piece) : 0;
-    }
-    if (fresh > 0.9 * h) fresh = h;
-    int n_fresh = (int)ceil(fresh / piece), n = n_fresh + (fresh < h);
-    fw_lone_state y[PIECE];
+    static const double WEIGHT[PIECE] = {7.0 / 90, 32.0 / 90, 12.0 / 90, 32.0 / 90, 7.0 / 90}; /* Boole's rule */
+    const fw_setup     *set = b->setup;
+    const fw_lone      *L = &c->lone;
+    fw_member          *m = &c->members[0];
+    fw_pair            *p = &c->pairs[0];
+    fw_body            *body = &b->world->bodies[m->index];
+    fw_ledger          *l = &b->world->ledger;
+    double              h = L->length, mass = 1 / m->own_inv_mass, omega = p->law.omega, cut[MAX_CUTS];
+    double              drag_work = 0, dashpot = 0, friction = 0, jx = 0, jy = 0, load = 0;
+    int                 n = cut_up(L, p, set->wear_tolerance, cut);
+    bool                wears = L->presses && b->wear->is_open;
+    double              angle = wears ? fw_ring_angle(m->y0[FW_X], m->y0[FW_Y]) : 0;
+    fw_wear_interval    iv = {.radius = m->radius, .thickness = body->thickness, .n_stages = PIECE};
+    fw_lone_state       y[PIECE];
     y[PIECE - 1] = L->from;
-    fw_wear_interval iv = {.radius = m->radius, .thickness = body->thickness, .n_stages = PIECE};
-    for (int j = 0; j < PIECE; j++) iv.at[j] = NODE5[j];
-    double angle = L->presses && b->wear->is_open ? fw_ring_angle(m->y0[FW_X], m->y0[FW_Y]) : 0;
+    for (int j = 0; j < PIECE; j++) iv.at[j] = 0.25 * j;
     for (int k = 0; k < n; k++) {
-        double from = k < n_fresh ? fresh * k / n_fresh : fresh, to = k + 1 == n ? h : fresh * (k + 1) / n_fresh, dt = to - from;
+        double from = cut[k], dt = cut[k + 1] - from;
+        decay  w = decay_at(L, from), step = decay_at(L, 0.25 * dt);
         y[0] = y[PIECE - 1];
-        for (int j = 1; j < PIECE; j++) state_at(L, &p->law, from + NODE5[j] * dt, &y[j]);
+        for (int j = 1; j < PIECE; j++) w = later(L, w, step), state_at(L, &p->law, from + iv.at[j] * dt, w, &y[j]);
         for (int j = 0; j < PIECE; j++) {
-            double w = WEIGHT5[j] * dt, fn, ft;
+            double weight = WEIGHT[j] * dt;
             if (m->drag_per_mass > 0) {
-                double co = cos(y[j].turn), si = sin(y[j].turn), nx = L->nx * co - L->ny * si, ny = L->nx * si + L->ny * co;
-                drag_at(L, set->speed, m->drag_per_mass, &y[j], &fn, &ft);
-                drag_work += w * (-fn * y[j].rate + ft * y[j].along);
-                jx += w * (fn * nx - ft * ny), jy += w * (fn * ny + ft * nx);
+                double nx, ny, out, along;
+                normal_at(L, y[j].turn, &nx, &ny);
+                drag_at(set->speed, m->drag_per_mass, nx, ny, &y[j], &out, &along);
+                drag_work += weight * (along * y[j].along - out * y[j].rate);
+                jx += weight * (out * nx - along * ny), jy += weight * (out * ny + along * nx);
             }
             if (!L->presses) continue;
             double normal = fw_larger(0, y[j].normal);
             double rub = !L->rubs ? 0 : L->slides != 0 ? -L->slides * p->mu * normal : -p->law.ct * y[j].slip;
-            dashpot += w * p->law.c * y[j].rate * y[j].rate, friction -= w * rub * y[j].slip;
-            if (normal > l->peak_force) l->peak_force = normal;
-            if (y[j].depth > 0) load += w * normal * fabs(y[j].slip) / sqrt(y[j].depth);
+            dashpot += weight * p->law.c * y[j].rate * y[j].rate, friction -= weight * rub * y[j].slip;
+            l->peak_force = fw_larger(l->peak_force, normal);
+            if (y[j].depth > 0) load += weight * normal * fabs(y[j].slip) / sqrt(y[j].depth);
             iv.normal[j] = y[j].normal, iv.slip[j] = y[j].slip;
         }
-        if (!L->presses || !b->wear->is_open) continue;
-        iv.length = dt, iv.since_touch = p->since_touch + from, iv.impact_left = body->t_hit + 2 / p->law.omega - c->t0 - from;
+        if (!wears) continue;
+        iv.length = dt, iv.since_touch = p->since_touch + from;
+        iv.impact_left = body->t_hit + 2 / omega - c->t0 - from;
         iv.depth[0] = iv.since_touch > 0 ? y[0].depth : 0, iv.depth[1] = y[PIECE - 1].depth;
         iv.rate[0] = y[0].rate, iv.rate[1] = y[PIECE - 1].rate;
         iv.angle[0] = angle - y[0].turn, iv.angle[1] = angle - y[PIECE - 1].turn;
-        if (k + 1 == n && iv.normal[PIECE - 1] < 1e-9 * p->law.k / omega * set->velocity_scale) iv.normal[PIECE - 1] = 0;
         fw_wear_collect(b->wear, &iv);
     }
-    fw_lone_state *e = &y[PIECE - 1];
+    const fw_lone_state *e = &y[PIECE - 1];
     p->load_tried = load;
     l->drag_work += mass * drag_work, l->dashpot += dashpot, l->friction += friction;
-    double d0 = fw_larger(0, L->from.depth), d1 = fw_larger(0, e->depth);
-    if (!L->presses)
-        l->dropped += 0.5 * p->law.k * (d0 * d0 - d1 * d1);
-    else {
-        l->normal_impulse += mass * (L->span * integral(L->g, h / L->span) - (e->rate - L->from.rate));
+    if (L->presses) {
+        l->normal_impulse += mass * (L->span * integral(L->by.push, h / L->span) - (e->rate - L->from.rate));
         l->contact_time += h;
+    } else {
+        double d0 = fw_larger(0, L->from.depth), d1 = fw_larger(0, e->depth);
+        l->dropped += 0.5 * p->law.k * (d0 * d0 - d1 * d1);
     }
     double small = fw_smaller(m->radius, set->structure_radius);
     l->max_overlap = fw_larger(l->max_overlap, e->depth);
     l->max_overlap_share = fw_larger(l->max_overlap_share, e->depth / small);
     if (e->depth > 0.1 * small) l->overlap_time += h;
-    /* impulses */
-    double inertia = m->inv_inertia > 0 ? 1 / m->inv_inertia : 0, in[3] = {mass, mass, inertia}, work = 0, size;
-    for (int q = 0; q < 3; q++) work += 0.5 * in[q] * (m->y1[FW_VX + q] - m->y0[FW_VX + q]) * (m->y1[FW_VX + q] + m->y0[FW_VX + q]);
-    size = fw_length(jx, jy) + fw_length(m->y1[FW_VX] - m->y0[FW_VX] - jx, m->y1[FW_VY] - m->y0[FW_VY] - jy);
+    /* The contact's impulse along a turning normal has no closed form: it is what drag leaves of the change of momentum. So the two books of
+     * impulses agree by construction here; the balance of work (dashpot, friction, drag, each by its own quadrature) is what checks. */
+    double in[3] = {mass, mass, m->inv_inertia > 0 ? 1 / m->inv_inertia : 0}, work = 0;
+    for (int q = 0; q < 3; q++) {
+        double v0 = m->y0[FW_VX + q], v1 = m->y1[FW_VX + q];
+        work += 0.5 * in[q] * (v1 - v0) * (v1 + v0);
+    }
+    double size = fw_length(jx, jy) + fw_length(m->y1[FW_VX] - m->y0[FW_VX] - jx, m->y1[FW_VY] - m->y0[FW_VY] - jy);
     l->kinetic_change += work, l->impulse_work += work;
-    l->impulse_size += mass * size * 0.5 * (fw_length(m->y0[FW_VX], m->y0[FW_VY]) + fw_length(m->y1[FW_VX], m->y1[FW_VY]));
+    l->impulse_size +=
+        mass * size * 0.5 * (fw_length(m->y0[FW_VX], m->y0[FW_VY]) + fw_length(m->y1[FW_VX], m->y1[FW_VY]));
     l->momentum_size += mass * size;
 }
