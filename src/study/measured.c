@@ -1,0 +1,58 @@
+#include "study/measured.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* What `floewear accuracy campaigns/raahe.yaml` measured: 12 windows of 150 m (steps) and 600 m of ice (the rest). The step's error
+ * is of coupled windows, |mean| or its standard error, whichever is larger; the others are of the default setting. */
+static const struct step {
+    double accuracy, amount, error, cost_factor;
+} STEPS[] = {
+    {1e-1, 3e-3, 3e-3, 1.10},
+    {1e-2, 3e-4, 3e-4, 1.25},
+    {1e-3, 3e-5, 3e-5, 1.30},
+    {1e-4, 3e-6, 3e-6, 1.30},
+};
+static const fw_measured_row DOMAIN_ROWS[] = {
+    {"ring", 0.1, 0.1, 1.0, "ring.arcs (360 arcs)", "720 arcs"},
+    {"strip width", 0.01, 0.01, NAN, "field.strip_width (100 m wide)", "no level that was tried"},
+    {"downstream", 0.01, 0.01, NAN, "field.downstream (20 m downstream)", "no level that was tried"},
+    {"warm-up", 0.01, 0.01, NAN, "exposure.warm_up (120 m of ice before)", "no level that was tried"},
+};
+enum { N_STEPS = sizeof STEPS / sizeof STEPS[0], N_DOMAIN = sizeof DOMAIN_ROWS / sizeof DOMAIN_ROWS[0] };
+
+/* The coarsest measured accuracy that is not finer than the model's has the larger error of the two neighbours. */
+static fw_measured_row discretisation(const fw_model *model)
+{
+    fw_measured_row row = {.row = "discretisation", .cost_factor = NAN};
+    const fw_numerics *own = &model->numerics;
+    if (own->order || own->tolerance > 0 || own->first_step > 0 || own->growth > 0) {
+        row.amount = row.error = NAN;
+        snprintf(row.shrinks_with, sizeof row.shrinks_with, "the campaign names its own numerics; floewear accuracy measures the built-in ones");
+        return row;
+    }
+    size_t k = N_STEPS - 1;
+    while (k > 0 && STEPS[k].accuracy < model->accuracy * (1 - 1e-9)) k--;
+    row.amount = STEPS[k].amount, row.error = STEPS[k].error, row.cost_factor = STEPS[k].cost_factor;
+    snprintf(row.shrinks_with, sizeof row.shrinks_with, "accuracy: (%g %%)", 100 * model->accuracy);
+    snprintf(row.halved_by, sizeof row.halved_by, "accuracy: %.2g %%", 100 * model->accuracy / 4);
+    return row;
+}
+
+static bool is_usual(const fw_model *m, size_t k)
+{
+    return k == 0 ? m->n_arcs == 360 : k == 1 ? !(m->strip_width > 0) : k == 2 ? !(m->downstream > 0) : m->warm_up < 0;
+}
+
+void fw_measured_default(fw_measured *out, const fw_model *model)
+{
+    *out = (fw_measured){.origin = "on the Raahe campaign"};
+    out->rows[out->n_rows++] = discretisation(model);
+    for (size_t k = 0; k < N_DOMAIN; k++) {
+        fw_measured_row *row = &out->rows[out->n_rows++];
+        *row = DOMAIN_ROWS[k];
+        if (is_usual(model, k)) continue;
+        row->amount = row->error = row->cost_factor = NAN;
+        snprintf(row->shrinks_with, sizeof row->shrinks_with, "floewear accuracy measures settings that are not the default");
+    }
+}
