@@ -47,20 +47,23 @@ static void add_pairs(fw_table_builder *b, const fw_accuracy_row *rows, size_t o
         fw_table_numbers(b, names[k], "1", long_names[k], rows, sizeof *rows, offset + parts[k]);
 }
 
-static void build_rows(fw_table_builder *b, const char *name, bool is_step, size_t n, const fw_accuracy_row *rows, fw_msg *m)
+static void build_rows(fw_table_builder *b, const char *name, bool is_step, size_t n, const fw_accuracy_row *rows,
+                       fw_msg *m)
 {
     static const char *const COUPLED[2][3] = {{"coupled_error", "coupled_standard_error", "coupled_rms"},
                                               {"mean relative error of depth over coupled windows; NaN: none",
-                                               "standard error of that mean", "r.m.s. error of single coupled windows"}};
+                                               "standard error of that mean",
+                                               "r.m.s. error of single coupled windows"}};
     static const char *const DEPTH[2][3] = {{"depth_error", "depth_standard_error", "depth_rms"},
-                                            {"mean relative error of depth over all windows", "standard error of that mean",
+                                            {"mean relative error of depth over all windows",
+                                             "standard error of that mean",
                                              "r.m.s. error of single windows; of the group window: their scatter"}};
-    static const char *const PATH[2][3] = {{"path_error", "path_standard_error", "path_rms"},
-                                           {"mean relative error of path", "standard error of that mean",
-                                            "r.m.s. error of single windows"}};
-    static const char *const IMPULSE[2][3] = {{"impulse_error", "impulse_standard_error", "impulse_rms"},
-                                              {"mean relative error of normal impulse", "standard error of that mean",
-                                               "r.m.s. error of single windows"}};
+    static const char *const PATH[2][3] = {
+        {"path_error", "path_standard_error", "path_rms"},
+        {"mean relative error of path", "standard error of that mean", "r.m.s. error of single windows"}};
+    static const char *const IMPULSE[2][3] = {
+        {"impulse_error", "impulse_standard_error", "impulse_rms"},
+        {"mean relative error of normal impulse", "standard error of that mean", "r.m.s. error of single windows"}};
     fw_table_start(b, name, n, m);
     const char **group = fw_table_texts(b, "group", "what is varied");
     const char **method = fw_table_texts(b, "method", "scheme, order and wear rule, or the group");
@@ -73,10 +76,12 @@ static void build_rows(fw_table_builder *b, const char *name, bool is_step, size
     if (is_step) {
         add_pairs(b, rows, offsetof(fw_accuracy_row, coupled), COUPLED[0], COUPLED[1]);
         FW_TABLE_NUMBERS(b, rows, fw_accuracy_row, order, "1", "observed order of coupled_rms in level; NaN: none");
-        FW_TABLE_NUMBERS(b, rows, fw_accuracy_row, hit_error, "1", "worst error on the embedded single hits; NaN: not run");
+        FW_TABLE_NUMBERS(b, rows, fw_accuracy_row, hit_error, "1",
+                         "worst error on the embedded single hits; NaN: not run");
         FW_TABLE_NUMBERS(b, rows, fw_accuracy_row, truncation, "1", "mean energy truncation");
     }
-    FW_TABLE_NUMBERS(b, rows, fw_accuracy_row, evaluations, "1", "force evaluations of one window, its warm-up included");
+    FW_TABLE_NUMBERS(b, rows, fw_accuracy_row, evaluations, "1",
+                     "force evaluations of one window, its warm-up included");
     FW_TABLE_NUMBERS(b, rows, fw_accuracy_row, cpu_s, "s", "processor time of one window, its warm-up included");
     double *reference = fw_table_number_column(b, "is_reference", "1", "1: the others are compared with it");
     double *usual = fw_table_number_column(b, "is_default", "1", "1: what a run without this file takes");
@@ -101,7 +106,8 @@ static void build_budget(fw_table_builder *b, const fw_accuracy *a, fw_msg *m)
     fw_table_start(b, "budget_cpu", a->n_budget, m);
     FW_TABLE_NUMBERS(b, a->budget, fw_accuracy_budget_row, budget_cpu_s, "s", "processor time to spend");
     FW_TABLE_NUMBERS(b, a->budget, fw_accuracy_budget_row, tolerance, "1", "step level");
-    FW_TABLE_NUMBERS(b, a->budget, fw_accuracy_budget_row, cpu_s_window, "s", "processor time of one window of the campaign");
+    FW_TABLE_NUMBERS(b, a->budget, fw_accuracy_budget_row, cpu_s_window, "s",
+                     "processor time of one window of the campaign");
     FW_TABLE_NUMBERS(b, a->budget, fw_accuracy_budget_row, n, "1", "windows that the budget buys");
     FW_TABLE_NUMBERS(b, a->budget, fw_accuracy_budget_row, step_error, "1", "relative error of the step");
     FW_TABLE_NUMBERS(b, a->budget, fw_accuracy_budget_row, sampling_error, "1", "relative error of so many windows");
@@ -156,7 +162,8 @@ static void build_summary(fw_table_builder *b, const fw_campaign *c, const fw_ac
     add_one(b, "warm_up_way", "m", "ice before it", a->sizes.warm_up_way);
     add_one(b, "domain_way", "m", "ice in a window of the other groups", a->sizes.domain_way);
     add_one(b, "mean_speed", "m s-1", "current of the paired windows", a->mean_speed);
-    add_one(b, "reference_hit_error", "1", "of the reference on the embedded single hits, worst", a->reference_hit_error);
+    add_one(b, "reference_hit_error", "1", "of the reference on the embedded single hits, worst",
+            a->reference_hit_error);
     add_text(b, "reference_hit", "which of them", a->reference_hit);
     add_one(b, "n_percentile", "1", "windows of the percentile group", (double)a->sizes.n_percentile);
     add_one(b, "percentile_window", "s", "their length", a->percentile_window_s);
@@ -173,9 +180,10 @@ void fw_accuracy_file_build_measured(fw_table_builder *b, const fw_measured *mea
     fw_table_start(b, "accuracy", measured->n_rows, m);
     const char **row = fw_table_texts(b, "row", "source of error");
     FW_TABLE_NUMBERS(b, rows, fw_measured_row, amount, "1", "relative amount; NaN: not measured");
-    fw_table_numbers(b, "standard_error", "1", "of the amount; NaN: none", rows, sizeof *rows, offsetof(fw_measured_row, error));
-    fw_table_numbers(b, "cpu_factor", "1", "work of a run with half of it over that of this run; NaN: unknown", rows, sizeof *rows,
-                     offsetof(fw_measured_row, cost_factor));
+    fw_table_numbers(b, "standard_error", "1", "of the amount; NaN: none", rows, sizeof *rows,
+                     offsetof(fw_measured_row, error));
+    fw_table_numbers(b, "cpu_factor", "1", "work of a run with half of it over that of this run; NaN: unknown", rows,
+                     sizeof *rows, offsetof(fw_measured_row, cost_factor));
     const char **shrinks = fw_table_texts(b, "shrinks_with", "what shrinks it");
     const char **halved = fw_table_texts(b, "halved_by", "the level that has half of it");
     const char **origin = fw_table_texts(b, "origin", "where it was measured");
@@ -228,7 +236,8 @@ fw_status fw_accuracy_file_read_sets(const fw_tables *t, fw_choice_sets *out, fw
     return FW_OK;
 }
 
-static fw_status read_text_column(const fw_tables *t, const char *name, fw_measured *out, size_t offset, size_t size, fw_msg *m)
+static fw_status read_text_column(const fw_tables *t, const char *name, fw_measured *out, size_t offset, size_t size,
+                                  fw_msg *m)
 {
     char  *texts;
     size_t n, width;
@@ -244,7 +253,8 @@ static fw_status read_number_column(const fw_tables *t, const char *name, fw_mea
     double *values;
     size_t  n;
     FW_TRY(fw_tables_numbers(t, "accuracy", name, FW_MEASURED_ROWS, &n, &values, m));
-    for (size_t i = 0; i < n && i < out->n_rows; i++) memcpy((char *)&out->rows[i] + offset, &values[i], sizeof *values);
+    for (size_t i = 0; i < n && i < out->n_rows; i++)
+        memcpy((char *)&out->rows[i] + offset, &values[i], sizeof *values);
     free(values);
     return FW_OK;
 }
@@ -256,8 +266,10 @@ fw_status fw_accuracy_file_read_measured(const fw_tables *t, fw_measured *out, f
     size_t  n, width;
     *out = (fw_measured){.n_rows = 0};
     FW_TRY(read_text_column(t, "row", out, offsetof(fw_measured_row, row), sizeof out->rows[0].row, m));
-    FW_TRY(read_text_column(t, "shrinks_with", out, offsetof(fw_measured_row, shrinks_with), sizeof out->rows[0].shrinks_with, m));
-    FW_TRY(read_text_column(t, "halved_by", out, offsetof(fw_measured_row, halved_by), sizeof out->rows[0].halved_by, m));
+    FW_TRY(read_text_column(t, "shrinks_with", out, offsetof(fw_measured_row, shrinks_with),
+                            sizeof out->rows[0].shrinks_with, m));
+    FW_TRY(
+        read_text_column(t, "halved_by", out, offsetof(fw_measured_row, halved_by), sizeof out->rows[0].halved_by, m));
     FW_TRY(read_number_column(t, "amount", out, offsetof(fw_measured_row, amount), m));
     FW_TRY(read_number_column(t, "standard_error", out, offsetof(fw_measured_row, error), m));
     FW_TRY(read_number_column(t, "cpu_factor", out, offsetof(fw_measured_row, cost_factor), m));

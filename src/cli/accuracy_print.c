@@ -35,24 +35,32 @@ static const char *share(char *text, size_t size, double x, const char *format)
 
 static const char *mark(const fw_accuracy_row *row)
 {
-    return row->is_chosen && row->is_default ? " <- chosen, the default" : row->is_chosen ? " <- chosen" : row->is_default ? " <- default" : "";
+    return row->is_chosen && row->is_default ? " <- chosen, the default"
+           : row->is_chosen                  ? " <- chosen"
+           : row->is_default                 ? " <- default"
+                                             : "";
 }
 
 static void print_heading(FILE *to, const fw_campaign *c, const fw_accuracy *a)
 {
-    fprintf(to, "%s: error against cost, for a wanted accuracy of %g %% of a window's depth\n", c->name, 100 * c->model.accuracy);
+    fprintf(to, "%s: error against cost, for a wanted accuracy of %g %% of a window's depth\n", c->name,
+            100 * c->model.accuracy);
     fprintf(to,
-            "%zu windows of %.3g m of ice after %.3g m (%.3g s at the mean %.2g m/s), the faster half of the first %zu ids, every "
+            "%zu windows of %.3g m of ice after %.3g m (%.3g s at the mean %.2g m/s), the faster half of the first %zu "
+            "ids, every "
             "setting on the same ice\n",
             a->sizes.n_windows, a->sizes.way, a->sizes.warm_up_way, a->sizes.way / a->mean_speed, a->mean_speed,
             2 * a->sizes.n_windows);
-    fprintf(to, "reference: events at accuracy 0.01 %%; itself off by at most %.2g %% on nine single hits of an independent code (%s)\n",
+    fprintf(to,
+            "reference: events at accuracy 0.01 %%; itself off by at most %.2g %% on nine single hits of an "
+            "independent code (%s)\n",
             100 * a->reference_hit_error, a->reference_hit);
     if (a->n_coupled == a->sizes.n_windows)
         fprintf(to, "all windows stay coupled at fine steps: a step error is seen window by window\n");
     else
         fprintf(to,
-                "%zu of %zu windows stay coupled at fine steps; in the others, jams, one touch a little earlier changes all that follow: "
+                "%zu of %zu windows stay coupled at fine steps; in the others, jams, one touch a little earlier "
+                "changes all that follow: "
                 "there the promise holds in the mean only\n",
                 a->n_coupled, a->sizes.n_windows);
 }
@@ -60,23 +68,25 @@ static void print_heading(FILE *to, const fw_campaign *c, const fw_accuracy *a)
 static void print_steps(FILE *to, const fw_accuracy *a)
 {
     char x[6][48];
-    fprintf(to, "\nwork and precision: depth over coupled windows; order: of its r.m.s. in tolerance or step; hits: worst single hit\n");
+    fprintf(to, "\nwork and precision: depth over coupled windows; order: of its r.m.s. in tolerance or step; hits: "
+                "worst single hit\n");
     bool has_jams = a->n_coupled < a->sizes.n_windows;
     fprintf(to, "  %-28s %-16s %-17s %-8s ", "method", "setting", "depth error", "r.m.s.");
     if (has_jams) fprintf(to, "%-17s ", "all windows");
     fprintf(to, "%-17s %-19s %5s %11s %8s %9s\n", "path", "impulse", "order", "evaluations", "CPU s", "hits");
     for (size_t i = 0; i < a->n_rows && a->rows[i].group == FW_ACCURACY_STEP; i++) {
         const fw_accuracy_row *r = &a->rows[i];
-        bool is_first = i == 0 || strcmp(a->rows[i - 1].method, r->method) != 0;
-        fprintf(to, "  %-28s %-16s %-17s %-8s ", is_first ? r->method : "", r->setting, cell(x[0], sizeof x[0], &r->coupled),
-                share(x[1], sizeof x[1], r->coupled.rms, "%.2g %%"));
+        bool                   is_first = i == 0 || strcmp(a->rows[i - 1].method, r->method) != 0;
+        fprintf(to, "  %-28s %-16s %-17s %-8s ", is_first ? r->method : "", r->setting,
+                cell(x[0], sizeof x[0], &r->coupled), share(x[1], sizeof x[1], r->coupled.rms, "%.2g %%"));
         if (has_jams) fprintf(to, "%-17s ", cell(x[2], sizeof x[2], &r->depth));
         fprintf(to, "%-17s %-19s ", cell(x[3], sizeof x[3], &r->path), cell(x[4], sizeof x[4], &r->impulse));
         if (isnan(r->order))
             fprintf(to, "%5s ", "-");
         else
             fprintf(to, "%5.2f ", r->order);
-        fprintf(to, "%11.3g %8.2g %9s%s", r->evaluations, r->cpu_s, share(x[5], sizeof x[5], r->hit_error, "%.2g %%"), mark(r));
+        fprintf(to, "%11.3g %8.2g %9s%s", r->evaluations, r->cpu_s, share(x[5], sizeof x[5], r->hit_error, "%.2g %%"),
+                mark(r));
         fprintf(to, "%s%s\n", r->words[0] ? "  " : "", r->words);
     }
 }
@@ -84,32 +94,39 @@ static void print_steps(FILE *to, const fw_accuracy *a)
 static void print_domain(FILE *to, const fw_accuracy *a)
 {
     char x[4][48];
-    fprintf(to, "\nring, domain, warm-up and window at the chosen step, %.3g m of ice a window with the campaign's own warm-up\n",
+    fprintf(to,
+            "\nring, domain, warm-up and window at the chosen step, %.3g m of ice a window with the campaign's own "
+            "warm-up\n",
             a->sizes.domain_way);
-    fprintf(to, "  %-12s %-22s %-18s %-9s %-18s %11s %9s\n", "", "setting", "depth error", "r.m.s.", "path", "evaluations", "CPU s");
+    fprintf(to, "  %-12s %-22s %-18s %-9s %-18s %11s %9s\n", "", "setting", "depth error", "r.m.s.", "path",
+            "evaluations", "CPU s");
     for (size_t i = 0; i < a->n_rows; i++) {
         const fw_accuracy_row *r = &a->rows[i];
         if (r->group == FW_ACCURACY_STEP) continue;
         bool is_first = a->rows[i - 1].group != r->group;
         fprintf(to, "  %-12s %-22s %-18s %-9s %-18s %11.3g %9.3g%s%s%s\n", is_first ? r->method : "", r->setting,
-                cell(x[0], sizeof x[0], &r->depth), share(x[1], sizeof x[1], r->depth.rms, "%.2g %%"), cell(x[2], sizeof x[2], &r->path),
-                r->evaluations, r->cpu_s, mark(r), r->words[0] ? "  " : "", r->words);
+                cell(x[0], sizeof x[0], &r->depth), share(x[1], sizeof x[1], r->depth.rms, "%.2g %%"),
+                cell(x[2], sizeof x[2], &r->path), r->evaluations, r->cpu_s, mark(r), r->words[0] ? "  " : "",
+                r->words);
     }
 }
 
 static void print_percentile(FILE *to, const fw_campaign *c, const fw_accuracy *a)
 {
     double p = c->precision.quantity == FW_QUANTITY_PERCENTILE ? c->precision.percentile : 90;
-    fprintf(to, "\nerror of P%g against realisations, %zu windows of %.3g s (all scenarios)\n ", p, a->sizes.n_percentile,
-            a->percentile_window_s);
+    fprintf(to, "\nerror of P%g against realisations, %zu windows of %.3g s (all scenarios)\n ", p,
+            a->sizes.n_percentile, a->percentile_window_s);
     for (size_t i = 0; i < a->n_percentile; i++)
-        if (a->percentile[i].error > 0) fprintf(to, "  n = %zu: %.2g %%", a->percentile[i].n, 100 * a->percentile[i].error);
+        if (a->percentile[i].error > 0)
+            fprintf(to, "  n = %zu: %.2g %%", a->percentile[i].n, 100 * a->percentile[i].error);
     if (isnan(a->error_one)) {
         fprintf(to, "  none: P%g of these windows is 0\n", p);
         return;
     }
-    fprintf(to, "\n  fit: %.3g %% / sqrt(n); slope seen %.2f (1/sqrt(n): -0.5); a window of the campaign costs %.3g CPU s\n",
-            100 * a->error_one, a->percentile_slope, a->cpu_s_window);
+    fprintf(
+        to,
+        "\n  fit: %.3g %% / sqrt(n); slope seen %.2f (1/sqrt(n): -0.5); a window of the campaign costs %.3g CPU s\n",
+        100 * a->error_one, a->percentile_slope, a->cpu_s_window);
 }
 
 static void print_budget(FILE *to, const fw_accuracy *a)

@@ -88,7 +88,8 @@ static fw_status choose(fw_campaign *c, const fw_choice_wanted *w, const char *p
     fw_msg      why = {""};
     struct stat st;
     if (!w->from && stat(path, &st) != 0) {
-        snprintf(out->line, sizeof out->line, "numerics: built in for accuracy %g %% (no %.300s; floewear accuracy writes it)",
+        snprintf(out->line, sizeof out->line,
+                 "numerics: built in for accuracy %g %% (no %.300s; floewear accuracy writes it)",
                  100 * c->model.accuracy, path);
         return FW_OK;
     }
@@ -98,7 +99,8 @@ static fw_status choose(fw_campaign *c, const fw_choice_wanted *w, const char *p
         return s;
     }
     if (s != FW_OK) {
-        snprintf(out->line, sizeof out->line, "numerics: built in for accuracy %g %%; not used: %.300s", 100 * c->model.accuracy, why.text);
+        snprintf(out->line, sizeof out->line, "numerics: built in for accuracy %g %%; not used: %.300s",
+                 100 * c->model.accuracy, why.text);
         return FW_OK;
     }
     out->measured = f.measured;
@@ -119,7 +121,9 @@ fw_status fw_choice_campaign(fw_campaign *c, const fw_choice_wanted *w, fw_choic
     fw_status s = FW_OK;
     if (has_numerics(&c->model)) {
         snprintf(out->line, sizeof out->line, "numerics: as the campaign says");
-        if (w->from) s = fw_fail(m, FW_E_INPUT, "--accuracy-from %s: the campaign names its own numerics; leave one of them out", w->from);
+        if (w->from)
+            s = fw_fail(m, FW_E_INPUT, "--accuracy-from %s: the campaign names its own numerics; leave one of them out",
+                        w->from);
     } else {
         s = w->from ? FW_OK : fw_choice_path(path, sizeof path, w->out ? w->out : c->name, m);
         if (s == FW_OK) s = choose(c, w, w->from ? w->from : path, out, m);

@@ -11,12 +11,12 @@
 fw_status fw_choice_path(char *path, size_t size, const char *out, fw_msg *m);
 
 typedef struct fw_choice_wanted {
-    const char *campaign; /* the file */
-    size_t      n_sets;
+    const char        *campaign; /* the file */
+    size_t             n_sets;
     const char *const *sets; /* (n_sets) */
-    int64_t     seed;        /* < 0: the file's */
-    const char *from;        /* --accuracy-from; NULL: look beside out */
-    const char *out;         /* stem of the results; NULL: the campaign's name */
+    int64_t            seed; /* < 0: the file's */
+    const char        *from; /* --accuracy-from; NULL: look beside out */
+    const char        *out;  /* stem of the results; NULL: the campaign's name */
 } fw_choice_wanted;
 
 typedef struct fw_choice {

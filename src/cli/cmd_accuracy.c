@@ -34,17 +34,21 @@ static const struct argp_option OPTIONS[] = {
     {"quick", KEY_QUICK, NULL, 0, "a small study, within two minutes on a busy machine", 0},
     {"set", KEY_SET, "KEY=VALUE", 0, "change one key of the file, as in ice.concentration=60%; may be repeated", 0},
     {"seed", KEY_SEED, "N", 0, "instead of the file's seed", 0},
-    {"time-budget", KEY_BUDGET, "TIME", 0, "stop after this much wall-clock time, as in 20min; sizes are chosen to fit it", 0},
-    {"cpu-budget", KEY_CPU_BUDGET, "TIME", 0, "choose sizes for this much CPU time (default 15min; with --quick 45s)", 0},
+    {"time-budget", KEY_BUDGET, "TIME", 0,
+     "stop after this much wall-clock time, as in 20min; sizes are chosen to fit it", 0},
+    {"cpu-budget", KEY_CPU_BUDGET, "TIME", 0, "choose sizes for this much CPU time (default 15min; with --quick 45s)",
+     0},
     {"quiet", 'q', NULL, 0, "no progress on stderr", 0},
     {"json", KEY_JSON, NULL, 0, "print JSON", 0},
     {0}};
 
-static const char DOC[] =
-    "Measure the error of every numerical choice against its cost on the campaign's own scenes, print the work-precision table, "
-    "store it in NAME.accuracy.h5 and choose the cheapest setting within the campaign's accuracy; run and plan take it from "
-    "there.\vExit codes: 0 done, 2 wrong input, 3 nothing to measure, 4 input or output error, 75 stopped (signal or time budget; "
-    "nothing is written).";
+static const char DOC[] = "Measure the error of every numerical choice against its cost on the campaign's own scenes, "
+                          "print the work-precision table, "
+                          "store it in NAME.accuracy.h5 and choose the cheapest setting within the campaign's "
+                          "accuracy; run and plan take it from "
+                          "there.\vExit codes: 0 done, 2 wrong input, 3 nothing to measure, 4 input or output error, "
+                          "75 stopped (signal or time budget; "
+                          "nothing is written).";
 
 /* CPU seconds by the forecast, which is nearly twice what an idle machine takes; a busy one gives half of its time. */
 static const double QUICK_S = 45, USUAL_S = 900, SHARE_OF_BUDGET = 0.5;
@@ -147,28 +151,32 @@ static fw_status check_place(const char *path, fw_msg *m)
     if (stat(path, &s) != 0) return FW_OK;
     fw_status status = fw_tables_open(&old, path, FW_ACCURACY_FILETYPE, &why);
     fw_tables_close(old);
-    FW_CHECK(status == FW_OK, m, FW_E_MISMATCH, "will not replace a file that is no accuracy study of ours: %s", why.text);
+    FW_CHECK(status == FW_OK, m, FW_E_MISMATCH, "will not replace a file that is no accuracy study of ours: %s",
+             why.text);
     return FW_OK;
 }
 
 static fw_status measure(const accuracy_arguments *a, const fw_campaign *c, const char *path, fw_msg *m)
 {
-    watch               w = {.start = seconds(), .budget_s = a->budget_s, .is_quiet = a->is_quiet, .is_terminal = isatty(STDERR_FILENO)};
+    watch w = {
+        .start = seconds(), .budget_s = a->budget_s, .is_quiet = a->is_quiet, .is_terminal = isatty(STDERR_FILENO)};
     fw_tick             tick = {.call = look, .self = &w};
     fw_accuracy_options o = {.scenario = fw_campaign_scenario,
                              .cpu_budget_s = a->is_quick ? QUICK_S : USUAL_S,
                              .tick = &tick,
                              .say = say,
                              .say_self = &w};
-    fw_accuracy result;
+    fw_accuracy         result;
     w.said = w.start;
-    if (a->budget_s > 0 && SHARE_OF_BUDGET * a->budget_s < o.cpu_budget_s) o.cpu_budget_s = SHARE_OF_BUDGET * a->budget_s;
+    if (a->budget_s > 0 && SHARE_OF_BUDGET * a->budget_s < o.cpu_budget_s)
+        o.cpu_budget_s = SHARE_OF_BUDGET * a->budget_s;
     if (a->cpu_budget_s > 0) o.cpu_budget_s = a->cpu_budget_s;
     fw_status s = fw_accuracy_study(&result, c, &o, m);
     if (w.is_line_open) fprintf(stderr, "\r\033[K");
     if (s == FW_E_STOPPED) {
-        return fw_signals_received() ? fw_fail(m, s, "stopped by signal %d; nothing is written", fw_signals_received())
-                                     : fw_fail(m, s, "the time budget of %g s is used up; nothing is written", a->budget_s);
+        return fw_signals_received()
+                   ? fw_fail(m, s, "stopped by signal %d; nothing is written", fw_signals_received())
+                   : fw_fail(m, s, "the time budget of %g s is used up; nothing is written", a->budget_s);
     }
     FW_TRY(s);
     s = fw_accuracy_file_write(path, c, &result, m);

@@ -9,11 +9,13 @@ static void build_percentiles(fw_table_builder *b, const fw_answer *a, fw_msg *m
 {
     fw_table_start(b, "percentiles", a->n_percentiles, m);
     FW_TABLE_COUNTS(b, a->percentiles, fw_percentile_row, point, "measuring point, from 1");
-    FW_TABLE_NUMBERS(b, a->percentiles, fw_percentile_row, bearing_deg, "degree", "outward normal, clockwise from north");
+    FW_TABLE_NUMBERS(b, a->percentiles, fw_percentile_row, bearing_deg, "degree",
+                     "outward normal, clockwise from north");
     FW_TABLE_NUMBERS(b, a->percentiles, fw_percentile_row, percentile, "1", "percentile, 0 to 100");
     FW_TABLE_NUMBERS(b, a->percentiles, fw_percentile_row, depth_mm, "mm", "abrasion depth of one window");
     FW_TABLE_NUMBERS(b, a->percentiles, fw_percentile_row, low_mm, "mm", "lower end of its interval");
-    FW_TABLE_NUMBERS(b, a->percentiles, fw_percentile_row, high_mm, "mm", "upper end of its interval; NaN: does not exist");
+    FW_TABLE_NUMBERS(b, a->percentiles, fw_percentile_row, high_mm, "mm",
+                     "upper end of its interval; NaN: does not exist");
     FW_TABLE_NUMBERS(b, a->percentiles, fw_percentile_row, coverage, "1", "coverage of the interval");
     const char **method = fw_table_texts(b, "method", "method of the interval");
     for (size_t i = 0; method && i < a->n_percentiles; i++) method[i] = a->percentiles[i].method;
@@ -43,7 +45,7 @@ static void build_life(fw_table_builder *b, const fw_answer *a, fw_msg *m)
     FW_TABLE_NUMBERS(b, a->life, fw_life_row, high_mm, "mm", "upper end of its interval; NaN: does not exist");
     FW_TABLE_NUMBERS(b, a->life, fw_life_row, windows, "1", "windows in the life");
     FW_TABLE_NUMBERS(b, a->life, fw_life_row, allowance_year, "1",
-            "year in which the allowance is used up; NaN: not within the life");
+                     "year in which the allowance is used up; NaN: not within the life");
     const char **assumption = fw_table_texts(b, "assumption", "how windows depend on one another");
     for (size_t i = 0; assumption && i < a->n_life; i++) assumption[i] = "independent windows";
 }
@@ -53,11 +55,11 @@ static void build_ledger(fw_table_builder *b, const fw_answer *a, fw_msg *m)
     fw_table_start(b, "ledger", a->n_ledger, m);
     const char **row = fw_table_texts(b, "row", "source of error");
     FW_TABLE_NUMBERS(b, a->ledger, fw_ledger_row, amount, "1",
-            "relative amount in the governing design number; NaN: not measured");
+                     "relative amount in the governing design number; NaN: not measured");
     const char **shrinks = fw_table_texts(b, "shrinks_with", "what shrinks it");
     const char **cost = fw_table_texts(b, "cost_to_halve", "what shrinking it by half would cost");
     FW_TABLE_NUMBERS(b, a->ledger, fw_ledger_row, cost_to_halve_cpu_s, "s",
-            "processor time of that on the machines of this run");
+                     "processor time of that on the machines of this run");
     for (size_t i = 0; cost && i < a->n_ledger; i++) {
         row[i] = a->ledger[i].row;
         shrinks[i] = a->ledger[i].shrinks_with;
@@ -69,8 +71,8 @@ fw_status fw_report_write(const char *path, const fw_campaign *c, const fw_recor
                           fw_msg *m)
 {
     fw_table_builder builders[N_TABLES];
-    fw_table  tables[N_TABLES];
-    fw_status s = FW_OK;
+    fw_table         tables[N_TABLES];
+    fw_status        s = FW_OK;
     build_percentiles(&builders[0], a, m);
     build_points(&builders[1], a, m);
     build_life(&builders[2], a, m);
@@ -81,7 +83,6 @@ fw_status fw_report_write(const char *path, const fw_campaign *c, const fw_recor
         if (s == FW_OK) s = builders[i].status;
     }
     if (s == FW_OK) s = fw_results_write(path, c, records, N_TABLES, tables, m);
-    for (int i = 0; i < N_TABLES; i++)
-        fw_table_free(&builders[i]);
+    for (int i = 0; i < N_TABLES; i++) fw_table_free(&builders[i]);
     return s;
 }

@@ -27,7 +27,7 @@ static void *add(fw_table_builder *b, const char *name, const char *unit, const 
 }
 
 void fw_table_numbers(fw_table_builder *b, const char *name, const char *unit, const char *long_name, const void *rows,
-                        size_t stride, size_t offset)
+                      size_t stride, size_t offset)
 {
     double *to = add(b, name, unit, long_name, sizeof *to);
     for (size_t i = 0; to && i < b->table.n_rows; i++)
@@ -36,7 +36,7 @@ void fw_table_numbers(fw_table_builder *b, const char *name, const char *unit, c
 }
 
 void fw_table_counts(fw_table_builder *b, const char *name, const char *long_name, const void *rows, size_t stride,
-                       size_t offset)
+                     size_t offset)
 {
     int64_t *to = add(b, name, "1", long_name, sizeof *to);
     for (size_t i = 0; to && i < b->table.n_rows; i++) {

@@ -9,7 +9,8 @@
 fw_status fw_plain_create(fw_plain **out, const fw_setup *setup, const fw_numerics *numerics, double inlet, fw_msg *m)
 {
     FW_CHECK(numerics->step > 0 && inlet < -setup->structure_radius, m, FW_E_ARG,
-             "plain method: step %g s, inlet %g m: wanted more than 0 s, and upstream of the structure", numerics->step, inlet);
+             "plain method: step %g s, inlet %g m: wanted more than 0 s, and upstream of the structure", numerics->step,
+             inlet);
     FW_CHECK(numerics->scheme != FW_SCHEME_EVENTS, m, FW_E_ARG, "plain method: the events scheme has no fixed step");
     FW_TRY(fw_alloc(out, 1, sizeof **out, "plain kernel", m));
     (*out)->setup = *setup, (*out)->numerics = *numerics, (*out)->inlet = inlet;

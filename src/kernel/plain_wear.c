@@ -16,10 +16,10 @@ static fw_plain_wall wall_now(const fw_plain *p, const fw_world *w, size_t near)
 {
     const fw_body              *b = &w->bodies[p->neighbours.near[near].i];
     const fw_contact_constants *law = &p->law[near];
-    double        r = sqrt(b->x * b->x + b->y * b->y), nx = b->x / r, ny = b->y / r;
-    fw_plain_wall now = {.depth = p->setup.structure_radius + b->radius - r,
-                         .rate = -(nx * b->vx + ny * b->vy),
-                         .slip = nx * b->vy - ny * b->vx - b->radius * b->spin};
+    double                      r = sqrt(b->x * b->x + b->y * b->y), nx = b->x / r, ny = b->y / r;
+    fw_plain_wall               now = {.depth = p->setup.structure_radius + b->radius - r,
+                                       .rate = -(nx * b->vx + ny * b->vy),
+                                       .slip = nx * b->vy - ny * b->vx - b->radius * b->spin};
     now.normal = law->k * now.depth + law->c * now.rate;
     if (now.depth > 0) now.angle = fw_ring_angle(b->x, b->y); /* most floes that are near do not touch */
     return now;

@@ -11,7 +11,8 @@
 
 enum { TABLES_VERSION = 1, MAX_WIDTH = 1 << 16 };
 
-fw_status fw_tables_put_root(const fw_h5_file *f, const char *filetype, uint64_t version, const fw_campaign *c, fw_msg *m)
+fw_status fw_tables_put_root(const fw_h5_file *f, const char *filetype, uint64_t version, const fw_campaign *c,
+                             fw_msg *m)
 {
     char hash[20];
     snprintf(hash, sizeof hash, "%016" PRIx64, c->hash);
@@ -90,7 +91,8 @@ static fw_status check_kind(const char *path, const char *filetype, fw_msg *m)
     if (stat(path, &s) != 0) return FW_OK;
     fw_status status = fw_tables_open(&old, path, filetype, &why);
     fw_tables_close(old);
-    FW_CHECK(status == FW_OK, m, FW_E_MISMATCH, "will not replace a file that is no %s of ours: %s", filetype, why.text);
+    FW_CHECK(status == FW_OK, m, FW_E_MISMATCH, "will not replace a file that is no %s of ours: %s", filetype,
+             why.text);
     return FW_OK;
 }
 
@@ -128,7 +130,8 @@ static fw_status check_filetype(const fw_h5_file *f, const char *wanted, fw_msg 
     FW_TRY(fw_h5_get_text(f, "filetype", &filetype, m));
     fw_status status = !wanted || strcmp(filetype, wanted) == 0
                            ? FW_OK
-                           : fw_fail(m, FW_E_FORMAT, "%s is a file of type '%.60s', not '%s'", f->path, filetype, wanted);
+                           : fw_fail(m, FW_E_FORMAT, "%s is a file of type '%.60s', not '%s'", f->path, filetype,
+                                     wanted);
     free(filetype);
     return status;
 }
@@ -159,8 +162,8 @@ static fw_status check_length(const fw_tables *t, const char *path, hsize_t n, s
     return FW_OK;
 }
 
-fw_status fw_tables_numbers(const fw_tables *t, const char *table, const char *column, size_t most, size_t *n, double **values,
-                            fw_msg *m)
+fw_status fw_tables_numbers(const fw_tables *t, const char *table, const char *column, size_t most, size_t *n,
+                            double **values, fw_msg *m)
 {
     char         path[160];
     fw_h5_wanted w = {.class = H5T_FLOAT, .rank = 1, .dims = {FW_H5_ANY}};
@@ -171,8 +174,7 @@ fw_status fw_tables_numbers(const fw_tables *t, const char *table, const char *c
     *n = (size_t)w.dims[0];
     fw_status status = check_length(t, path, w.dims[0], most, m);
     if (status == FW_OK) status = fw_alloc(values, *n, sizeof **values, path, m);
-    if (status == FW_OK && *n)
-        status = fw_h5_read_rows(&t->file, dataset, H5T_NATIVE_DOUBLE, 0, w.dims[0], *values, m);
+    if (status == FW_OK && *n) status = fw_h5_read_rows(&t->file, dataset, H5T_NATIVE_DOUBLE, 0, w.dims[0], *values, m);
     H5Dclose(dataset);
     if (status != FW_OK) {
         free(*values);
@@ -184,18 +186,19 @@ fw_status fw_tables_numbers(const fw_tables *t, const char *table, const char *c
 /* The width of a text column is whatever its longest text needed. */
 static fw_status text_width(const fw_tables *t, const char *path, size_t *width, fw_msg *m)
 {
-    hid_t dataset = H5Dopen2(t->file.id, path, H5P_DEFAULT), type = dataset >= 0 ? H5Dget_type(dataset) : H5I_INVALID_HID;
-    bool  is_text = type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
+    hid_t dataset = H5Dopen2(t->file.id, path, H5P_DEFAULT),
+          type = dataset >= 0 ? H5Dget_type(dataset) : H5I_INVALID_HID;
+    bool is_text = type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
     *width = is_text ? H5Tget_size(type) : 0;
     if (type >= 0) H5Tclose(type);
     if (dataset >= 0) H5Dclose(dataset);
-    FW_CHECK(*width > 0 && *width <= MAX_WIDTH, m, FW_E_FORMAT, "%s: %s is missing or is not a column of texts", t->file.path,
-             path);
+    FW_CHECK(*width > 0 && *width <= MAX_WIDTH, m, FW_E_FORMAT, "%s: %s is missing or is not a column of texts",
+             t->file.path, path);
     return FW_OK;
 }
 
-fw_status fw_tables_texts(const fw_tables *t, const char *table, const char *column, size_t most, size_t *n, size_t *width,
-                          char **texts, fw_msg *m)
+fw_status fw_tables_texts(const fw_tables *t, const char *table, const char *column, size_t most, size_t *n,
+                          size_t *width, char **texts, fw_msg *m)
 {
     char   path[160];
     size_t stored;
@@ -208,7 +211,8 @@ fw_status fw_tables_texts(const fw_tables *t, const char *table, const char *col
     *n = (size_t)w.dims[0];
     *width = stored + 1; /* room for the NUL that a full row has none of */
     hid_t     memory = fw_h5_text_type(*width);
-    fw_status status = memory < 0 ? fw_h5_fail(&t->file, FW_E_INTERNAL, path, m) : check_length(t, path, w.dims[0], most, m);
+    fw_status status = memory < 0 ? fw_h5_fail(&t->file, FW_E_INTERNAL, path, m)
+                                  : check_length(t, path, w.dims[0], most, m);
     if (status == FW_OK) status = fw_alloc(texts, *n, *width, path, m);
     if (status == FW_OK && *n) status = fw_h5_read_rows(&t->file, dataset, memory, 0, w.dims[0], *texts, m);
     for (size_t i = 0; status == FW_OK && i < *n; i++) (*texts)[i * *width + stored] = '\0';

@@ -6,7 +6,8 @@
 #include "store/results.h"
 
 /* Root attributes: origin, name, campaign, sets, settings, settings_hash, seed. */
-fw_status fw_tables_put_root(const fw_h5_file *f, const char *filetype, uint64_t version, const fw_campaign *c, fw_msg *m);
+fw_status fw_tables_put_root(const fw_h5_file *f, const char *filetype, uint64_t version, const fw_campaign *c,
+                             fw_msg *m);
 fw_status fw_tables_put(const fw_h5_file *f, const fw_table *t, fw_msg *m);
 
 #endif

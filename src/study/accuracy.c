@@ -14,8 +14,8 @@
 
 /* From the smallest: a study of these sizes, or one between them never: two calls on one machine give the same table. */
 static const fw_accuracy_sizes SIZES[] = {
-    {4, 10, 5, 2, 30, 32},     {6, 20, 10, 3, 60, 64},     {6, 40, 15, 3, 120, 96},    {8, 60, 20, 3, 200, 128},
-    {8, 80, 30, 3, 300, 192},  {10, 80, 30, 4, 300, 192},  {12, 100, 40, 4, 400, 256}, {12, 150, 40, 5, 600, 384},
+    {4, 10, 5, 2, 30, 32},      {6, 20, 10, 3, 60, 64},       {6, 40, 15, 3, 120, 96},    {8, 60, 20, 3, 200, 128},
+    {8, 80, 30, 3, 300, 192},   {10, 80, 30, 4, 300, 192},    {12, 100, 40, 4, 400, 256}, {12, 150, 40, 5, 600, 384},
     {16, 200, 60, 5, 800, 512}, {20, 300, 60, 6, 1500, 1024},
 };
 enum { N_SIZES = sizeof SIZES / sizeof SIZES[0] };
@@ -42,7 +42,8 @@ void fw_accuracy_say(const fw_accuracy_run *r, const char *fmt, ...)
 
 fw_status fw_accuracy_append(fw_accuracy_run *r, const fw_accuracy_row *row, fw_msg *m)
 {
-    FW_TRY(fw_grow(&r->out->rows, &r->row_capacity, r->out->n_rows + 1, sizeof *r->out->rows, "rows of the accuracy study", m));
+    FW_TRY(fw_grow(&r->out->rows, &r->row_capacity, r->out->n_rows + 1, sizeof *r->out->rows,
+                   "rows of the accuracy study", m));
     r->out->rows[r->out->n_rows++] = *row;
     return FW_OK;
 }
@@ -109,7 +110,8 @@ static double forecast(const fw_accuracy_run *r, const fw_accuracy_sizes *s, dou
     double floes = 0, seconds = 0, evaluations = s->n_steps <= 3 ? 7 : 14; /* a step of each scheme and rule */
     for (size_t i = 0; i < r->n; i++) {
         const fw_scenario *sc = &r->windows[i].scenario;
-        floes += sc->concentration * 85 * fw_accuracy_strip_width(&r->model) / (0.785 * 1.15 * diameter * diameter) / (double)r->n;
+        floes += sc->concentration * 85 * fw_accuracy_strip_width(&r->model) / (0.785 * 1.15 * diameter * diameter) /
+                 (double)r->n;
         seconds += (s->way + s->warm_up_way) / sc->speed / (double)r->n;
     }
     double steps = n * seconds / 4e-3 * (pow(2, (double)s->n_steps) - 1);
@@ -174,7 +176,8 @@ fw_status fw_accuracy_study(fw_accuracy *out, const fw_campaign *c, const fw_acc
     fw_accuracy_run r = {.c = c, .o = o, .out = out, .model = c->model};
     memset(out, 0, sizeof *out);
     FW_CHECK(c->points.n > 0, m, FW_E_ARG, "the campaign has no measuring points");
-    r.model.numerics = (fw_numerics){.scheme = FW_SCHEME_EVENTS}; /* what the file may say of them is what is being judged */
+    r.model.numerics = (fw_numerics){
+        .scheme = FW_SCHEME_EVENTS}; /* what the file may say of them is what is being judged */
     fw_status s = study(&r, m);
     out->cpu_s = cpu_now() - start;
     free(r.windows);

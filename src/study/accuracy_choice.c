@@ -23,7 +23,8 @@ static bool is_candidate(const fw_accuracy_row *row)
 static double total_error(const fw_accuracy_row *row)
 {
     double truth = fmax(row->hit_error, row->truncation);
-    return row->coupled.n > 1 ? fmax(truth, fabs(row->coupled.mean) + 2 * row->coupled.error) : row->hit_error + row->truncation;
+    return row->coupled.n > 1 ? fmax(truth, fabs(row->coupled.mean) + 2 * row->coupled.error)
+                              : row->hit_error + row->truncation;
 }
 
 void fw_accuracy_choose_step(fw_accuracy_run *r)
@@ -45,11 +46,12 @@ void fw_accuracy_choose_step(fw_accuracy_run *r)
     const char *what = best->coupled.n > 1 ? "coupled windows, single hits and energy balance"
                                            : "single hits and energy balance, as no windows stay coupled";
     if (choice->is_within)
-        snprintf(choice->why, sizeof choice->why, "fewest force evaluations within %g %%: %.2g %% by %s", 100 * accuracy,
-                 100 * choice->error, what);
-    else
-        snprintf(choice->why, sizeof choice->why, "nothing that was tried is within %g %%; this comes nearest: %.2g %% by %s",
+        snprintf(choice->why, sizeof choice->why, "fewest force evaluations within %g %%: %.2g %% by %s",
                  100 * accuracy, 100 * choice->error, what);
+    else
+        snprintf(choice->why, sizeof choice->why,
+                 "nothing that was tried is within %g %%; this comes nearest: %.2g %% by %s", 100 * accuracy,
+                 100 * choice->error, what);
 }
 
 static fw_accuracy_row *default_row(const fw_accuracy_run *r, fw_accuracy_group g)
@@ -106,7 +108,8 @@ static void measure_step(const fw_accuracy_run *r, const fw_accuracy_row *chosen
     }
     for (size_t i = 0; i < r->out->n_rows; i++) {
         const fw_accuracy_row *row = &r->out->rows[i];
-        if (row->group != FW_ACCURACY_STEP || strcmp(row->method, chosen->method) != 0 || !(row->level < chosen->level)) continue;
+        if (row->group != FW_ACCURACY_STEP || strcmp(row->method, chosen->method) != 0 || !(row->level < chosen->level))
+            continue;
         double error = log(chosen->coupled.rms / row->coupled.rms);
         double slope = error / log(row->evaluations / chosen->evaluations);
         if (!(slope > steepest)) continue; /* also passes over NaN */
@@ -127,7 +130,8 @@ static void measure_domain(const fw_accuracy_run *r, const fw_accuracy_row *row,
     to->error = share * row->depth.error;
     to->cost_factor = NAN;
     bool is_noise = row->depth.n > 1 && fabs(row->depth.mean) < 2 * row->depth.error;
-    SAY(to->shrinks_with, "%s (%s%s)", KEYS[row->group], row->setting, is_noise ? "; within the scatter of the study" : "");
+    SAY(to->shrinks_with, "%s (%s%s)", KEYS[row->group], row->setting,
+        is_noise ? "; within the scatter of the study" : "");
     if (row->is_reference) to->amount = NAN;
     for (const fw_accuracy_row *wider = row + 1; wider < end && wider->group == row->group; wider++) {
         if (wider->is_reference || !(fabs(wider->depth.mean) <= 0.5 * fabs(row->depth.mean))) continue;
@@ -142,7 +146,8 @@ void fw_accuracy_measure(fw_accuracy_run *r)
 {
     fw_measured *to = &r->out->measured;
     *to = (fw_measured){.is_own = true};
-    SAY(to->origin, "on this campaign, %zu windows of %.3g and %.3g m of ice", r->n, r->out->sizes.way, r->out->sizes.domain_way);
+    SAY(to->origin, "on this campaign, %zu windows of %.3g and %.3g m of ice", r->n, r->out->sizes.way,
+        r->out->sizes.domain_way);
     for (size_t i = 0; i < r->out->n_rows && to->n_rows < FW_MEASURED_ROWS; i++) {
         const fw_accuracy_row *row = &r->out->rows[i];
         if (!row->is_chosen) continue;

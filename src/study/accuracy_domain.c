@@ -94,7 +94,8 @@ static void say_in_words(const fw_accuracy_run *r, fw_accuracy_row *row)
     if (row->is_reference)
         snprintf(row->words, sizeof row->words, "what the others are compared with");
     else if (row->group == FW_ACCURACY_RING)
-        snprintf(row->words, sizeof row->words, "of the measuring points; r.m.s.: scatter of one point in one window, %.2g %% over %.3g s",
+        snprintf(row->words, sizeof row->words,
+                 "of the measuring points; r.m.s.: scatter of one point in one window, %.2g %% over %.3g s",
                  100 * row->depth.rms * sqrt(r->out->mean_window_s / r->c->model.window), r->c->model.window);
     else if (row->group == FW_ACCURACY_WARM_UP)
         snprintf(row->words, sizeof row->words, "other ice in the window; once in the campaign's window: %.1g %%",
@@ -108,14 +109,14 @@ static fw_status run_group(fw_accuracy_run *r, const struct group *g, fw_msg *m)
     double levels[MOST_LEVELS];
     size_t usual, n = levels_with(g, usual_level(r, g->group), levels, &usual);
     for (size_t k = n; k-- > 0;) { /* from the reference downwards; rows are put in ascending order below */
-        fw_model        model = r->model;
-        fw_accuracy_row row = {.group = g->group,
-                               .numerics = r->model.numerics,
-                               .level = levels[k],
-                               .is_reference = k + 1 == n,
-                               .is_default = k == usual,
-                               .order = NAN,
-                               .hit_error = NAN};
+        fw_model         model = r->model;
+        fw_accuracy_row  row = {.group = g->group,
+                                .numerics = r->model.numerics,
+                                .level = levels[k],
+                                .is_reference = k + 1 == n,
+                                .is_default = k == usual,
+                                .order = NAN,
+                                .hit_error = NAN};
         fw_trial_sample *sample = k + 1 == n ? r->reference : r->sample;
         double          *points = k + 1 == n ? r->points_reference : r->points;
         snprintf(row.method, sizeof row.method, "%s", fw_accuracy_group_name(g->group));

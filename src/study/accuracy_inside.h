@@ -12,12 +12,12 @@ typedef struct fw_accuracy_run {
     const fw_campaign         *c;
     const fw_accuracy_options *o;
     fw_accuracy               *out;
-    fw_model                   model;      /* the campaign's, with the events scheme and its built-in numerics */
-    size_t                     n;          /* windows of a paired group */
-    fw_trial_window           *windows;    /* (n) */
+    fw_model                   model;   /* the campaign's, with the events scheme and its built-in numerics */
+    size_t                     n;       /* windows of a paired group */
+    fw_trial_window           *windows; /* (n) */
     fw_trial_sample           *sample, *reference, *usual; /* (n) now, reference of the group, default settings */
     double                    *points, *points_reference, *points_usual; /* (n x c->points.n) */
-    bool                      *is_coupled; /* (n) */
+    bool                      *is_coupled;                               /* (n) */
     size_t                     row_capacity;
 } fw_accuracy_run;
 

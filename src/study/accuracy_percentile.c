@@ -69,12 +69,12 @@ static fw_status subset_error(const fw_campaign *c, size_t n_records, const fw_r
     return FW_OK;
 }
 
-fw_status fw_accuracy_percentile_error(const fw_campaign *c, size_t n_records, const fw_record *records, double p, size_t n,
-                                       double *error, double *value, fw_msg *m)
+fw_status fw_accuracy_percentile_error(const fw_campaign *c, size_t n_records, const fw_record *records, double p,
+                                       size_t n, double *error, double *value, fw_msg *m)
 {
     size_t point = 0, *picks;
-    FW_CHECK(n >= 1 && n <= n_records / 2, m, FW_E_ARG, "sub-sets of %zu out of %zu records: wanted 1 to half of them", n,
-             n_records);
+    FW_CHECK(n >= 1 && n <= n_records / 2, m, FW_E_ARG, "sub-sets of %zu out of %zu records: wanted 1 to half of them",
+             n, n_records);
     FW_TRY(governing_value(c, n_records, records, p, &point, value, m));
     *error = NAN;
     if (!(*value > 0)) return FW_OK; /* a percentile of nothing has no relative error */
@@ -106,7 +106,9 @@ static fw_status run_windows(fw_accuracy_run *r, size_t n, fw_record *records, d
 
 static double design_percentile(const fw_campaign *c)
 {
-    return c->precision.quantity == FW_QUANTITY_PERCENTILE && c->precision.percentile > 0 ? c->precision.percentile / 100 : 0.9;
+    return c->precision.quantity == FW_QUANTITY_PERCENTILE && c->precision.percentile > 0
+               ? c->precision.percentile / 100
+               : 0.9;
 }
 
 static fw_status add_percentile_rows(fw_accuracy_run *r, size_t n_records, const fw_record *records, fw_msg *m)
@@ -129,7 +131,8 @@ static fw_status add_percentile_rows(fw_accuracy_run *r, size_t n_records, const
     double k = (double)n_fit;
     out->error_one = n_fit ? sum / k : NAN;
     out->percentile_slope = n_fit > 1 ? (k * sum_xy - sum_x * sum_y) / (k * sum_xx - sum_x * sum_x) : NAN;
-    for (size_t i = 0; i < out->n_percentile; i++) out->percentile[i].fit = out->error_one / sqrt((double)out->percentile[i].n);
+    for (size_t i = 0; i < out->n_percentile; i++)
+        out->percentile[i].fit = out->error_one / sqrt((double)out->percentile[i].n);
     return FW_OK;
 }
 
@@ -162,7 +165,7 @@ fw_status fw_accuracy_split_budget(fw_accuracy_run *r, fw_msg *m)
     for (size_t i = 0; i < out->n_rows; i++)
         n_levels += out->rows[i].group == FW_ACCURACY_STEP && strcmp(out->rows[i].method, chosen->method) == 0;
     FW_TRY(fw_alloc(&out->budget, 3 * n_levels, sizeof *out->budget, "rows of the budget", m));
-    double whole = out->cpu_s_window * (double)r->c->precision.max_realisations;
+    double              whole = out->cpu_s_window * (double)r->c->precision.max_realisations;
     static const double SHARES[] = {0.1, 1, 1000};
     for (int k = 0; k < 3; k++)
         for (size_t i = 0; i < out->n_rows; i++) {

@@ -34,11 +34,10 @@ static const struct plain_line {
     fw_wear_rule rule;
     bool         is_core;
 } PLAIN[] = {
-    {"euler", FW_SCHEME_EULER, FW_WEAR_NAIVE, true},      {"euler", FW_SCHEME_EULER, FW_WEAR_SINGULAR, false},
-    {"euler", FW_SCHEME_EULER, FW_WEAR_HERMITE, true},    {"verlet", FW_SCHEME_VERLET, FW_WEAR_NAIVE, false},
+    {"euler", FW_SCHEME_EULER, FW_WEAR_NAIVE, true},       {"euler", FW_SCHEME_EULER, FW_WEAR_SINGULAR, false},
+    {"euler", FW_SCHEME_EULER, FW_WEAR_HERMITE, true},     {"verlet", FW_SCHEME_VERLET, FW_WEAR_NAIVE, false},
     {"verlet", FW_SCHEME_VERLET, FW_WEAR_SINGULAR, false}, {"verlet", FW_SCHEME_VERLET, FW_WEAR_HERMITE, true},
-    {"rk4", FW_SCHEME_RK4, FW_WEAR_NAIVE, false},
-    {"rk4", FW_SCHEME_RK4, FW_WEAR_HERMITE, true},
+    {"rk4", FW_SCHEME_RK4, FW_WEAR_NAIVE, false},          {"rk4", FW_SCHEME_RK4, FW_WEAR_HERMITE, true},
 };
 static const double STEPS[] = {4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4}; /* [s] */
 
@@ -135,7 +134,8 @@ static fw_status run_usual(fw_accuracy_run *r, fw_msg *m)
 {
     for (size_t i = 0; i < r->out->n_rows; i++)
         if (r->out->rows[i].is_default) return FW_OK;
-    fw_accuracy_row row = {.group = FW_ACCURACY_STEP, .numerics = fw_accuracy_built_in(&r->c->model), .is_default = true};
+    fw_accuracy_row row = {
+        .group = FW_ACCURACY_STEP, .numerics = fw_accuracy_built_in(&r->c->model), .is_default = true};
     row.level = row.numerics.tolerance;
     snprintf(row.method, sizeof row.method, "events %d, built in", row.numerics.order);
     snprintf(row.setting, sizeof row.setting, "tolerance %.3g", row.level);

@@ -44,7 +44,8 @@ static void numerical(fw_ledger_row *row, const char *name, const fw_measured *a
         return;
     }
     if (measured->error > 0)
-        SAY(row->shrinks_with, "%s; measured %s, +- %.1g %%", measured->shrinks_with, all->origin, 100 * measured->error);
+        SAY(row->shrinks_with, "%s; measured %s, +- %.1g %%", measured->shrinks_with, all->origin,
+            100 * measured->error);
     else
         SAY(row->shrinks_with, "%s; measured %s", measured->shrinks_with, all->origin);
     if (isnan(measured->cost_factor)) {
@@ -82,7 +83,9 @@ static size_t domain(fw_ledger_row *row, const fw_measured *all, const fw_window
     }
     SAY(sum->row, "window, domain and warm-up");
     sum->amount = row > sum + 1 ? amount : NAN;
-    SAY(sum->shrinks_with, "%s", row > sum + 1 ? "the rows below, summed as if they all went one way" : "not measured; exposure and strip settings");
+    SAY(sum->shrinks_with, "%s",
+        row > sum + 1 ? "the rows below, summed as if they all went one way"
+                      : "not measured; exposure and strip settings");
     SAY(sum->cost_to_halve, "%s", row > sum + 1 ? "see there" : "not measured");
     return (size_t)(row - sum);
 }

@@ -24,11 +24,12 @@ enum { N_STEPS = sizeof STEPS / sizeof STEPS[0], N_DOMAIN = sizeof DOMAIN_ROWS /
 /* The coarsest measured accuracy that is not finer than the model's has the larger error of the two neighbours. */
 static fw_measured_row discretisation(const fw_model *model)
 {
-    fw_measured_row row = {.row = "discretisation", .cost_factor = NAN};
+    fw_measured_row    row = {.row = "discretisation", .cost_factor = NAN};
     const fw_numerics *own = &model->numerics;
     if (own->order || own->tolerance > 0 || own->first_step > 0 || own->growth > 0) {
         row.amount = row.error = NAN;
-        snprintf(row.shrinks_with, sizeof row.shrinks_with, "the campaign names its own numerics; floewear accuracy measures the built-in ones");
+        snprintf(row.shrinks_with, sizeof row.shrinks_with,
+                 "the campaign names its own numerics; floewear accuracy measures the built-in ones");
         return row;
     }
     size_t k = N_STEPS - 1;
@@ -53,6 +54,7 @@ void fw_measured_default(fw_measured *out, const fw_model *model)
         *row = DOMAIN_ROWS[k];
         if (is_usual(model, k)) continue;
         row->amount = row->error = row->cost_factor = NAN;
-        snprintf(row->shrinks_with, sizeof row->shrinks_with, "floewear accuracy measures settings that are not the default");
+        snprintf(row->shrinks_with, sizeof row->shrinks_with,
+                 "floewear accuracy measures settings that are not the default");
     }
 }

@@ -11,10 +11,11 @@
 enum { FW_MEASURED_ROWS = 5 };
 
 typedef struct fw_measured_row {
-    char   row[32]; /* "discretisation", "ring", "strip width", "downstream", "warm-up" */
+    char   row[32];       /* "discretisation", "ring", "strip width", "downstream", "warm-up" */
     double amount, error; /* relative, with its standard error (NAN: none) */
-    double cost_factor;   /* CPU time of a run with half of it, over that of this run; NAN: no level that was tried has half */
-    char   shrinks_with[96], halved_by[96]; /* the key, and what to set it to */
+    double
+        cost_factor; /* CPU time of a run with half of it, over that of this run; NAN: no level that was tried has half */
+    char shrinks_with[96], halved_by[96]; /* the key, and what to set it to */
 } fw_measured_row;
 
 typedef struct fw_measured {

@@ -70,7 +70,8 @@ fw_pairs fw_pairs_compare(size_t n, const fw_trial_sample *a, const fw_trial_sam
     return out;
 }
 
-size_t fw_pairs_find_coupled(size_t n, const fw_trial_sample *a, const fw_trial_sample *reference, double limit, bool *is_coupled)
+size_t fw_pairs_find_coupled(size_t n, const fw_trial_sample *a, const fw_trial_sample *reference, double limit,
+                             bool *is_coupled)
 {
     size_t count = 0;
     for (size_t i = 0; i < n; i++) {

@@ -28,8 +28,8 @@ fw_status fw_trial_run(const fw_campaign *c, const fw_model *model, size_t n, co
 
 /* What n pairs say: e = (value - reference) over their mean size, so that a decoupled pair counts alike both ways. */
 typedef struct fw_pairs {
-    size_t n;                 /* pairs in which something was worn */
-    double mean, error, rms;  /* of e; error: standard error of the mean, NAN below two pairs; rms: of single windows */
+    size_t n;                /* pairs in which something was worn */
+    double mean, error, rms; /* of e; error: standard error of the mean, NAN below two pairs; rms: of single windows */
 } fw_pairs;
 
 typedef double (*fw_trial_value)(const fw_trial_sample *s);
@@ -41,6 +41,7 @@ double fw_trial_impulse(const fw_trial_sample *s);
 fw_pairs fw_pairs_compare(size_t n, const fw_trial_sample *a, const fw_trial_sample *reference, fw_trial_value value,
                           const bool *counts);
 /* Coupled: depth of two fine levels agrees within limit. Returns their number. */
-size_t fw_pairs_find_coupled(size_t n, const fw_trial_sample *a, const fw_trial_sample *reference, double limit, bool *is_coupled);
+size_t   fw_pairs_find_coupled(size_t n, const fw_trial_sample *a, const fw_trial_sample *reference, double limit,
+                               bool *is_coupled);
 
 #endif

@@ -10,7 +10,8 @@
 #define PI 3.14159265358979323846
 
 /* Case 2, offset 3 m of tests/reference/single_floe.csv: D 5 m, h 0.5 m, 2 m/s; depth along the contact [mm], path [m], J_N [N s]. */
-static const double D = 5, H = 0.5, OFFSET = 3, DEPTH = 7.321553761161649e-07, PATH = 0.19153766111867288, IMPULSE = 97031.15251102486;
+static const double D = 5, H = 0.5, OFFSET = 3, DEPTH = 7.321553761161649e-07, PATH = 0.19153766111867288,
+                    IMPULSE = 97031.15251102486;
 
 static fw_setup setup(void)
 {
@@ -143,8 +144,8 @@ static void reference_hit(void **state)
     for (size_t k = 0; k < 3; k++)
         for (double dt = 2e-3; dt > 0.2e-3; dt /= 3) {
             outcome o = hit(SCHEMES[k].scheme, FW_WEAR_HERMITE, dt);
-            print_message("%s %.3g ms: depth %+.2e, path %+.2e, impulse %+.2e, %.0f evaluations\n", SCHEMES[k].name, 1e3 * dt,
-                          o.depth / DEPTH - 1, o.path / PATH - 1, o.impulse / IMPULSE - 1, o.evaluations);
+            print_message("%s %.3g ms: depth %+.2e, path %+.2e, impulse %+.2e, %.0f evaluations\n", SCHEMES[k].name,
+                          1e3 * dt, o.depth / DEPTH - 1, o.path / PATH - 1, o.impulse / IMPULSE - 1, o.evaluations);
             CHECK_RELATIVE(o.depth, DEPTH, 20 * dt);
             CHECK_RELATIVE(o.path, PATH, 20 * dt);
             CHECK_RELATIVE(o.impulse, IMPULSE, 5 * dt);
@@ -182,7 +183,8 @@ static void refusals(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(free_flight), cmocka_unit_test(head_on), cmocka_unit_test(reference_hit),
-                                       cmocka_unit_test(naive_rule), cmocka_unit_test(refusals)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(free_flight), cmocka_unit_test(head_on),
+                                       cmocka_unit_test(reference_hit), cmocka_unit_test(naive_rule),
+                                       cmocka_unit_test(refusals)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,9 +7,9 @@
 static void hits_are_the_reference(void **state)
 {
     (void)state;
-    char   name[32];
-    double fine, usual, coarse;
-    fw_msg m = {""};
+    char        name[32];
+    double      fine, usual, coarse;
+    fw_msg      m = {""};
     fw_numerics loose = {.order = 2, .tolerance = 1e-2, .first_step = 0.05, .growth = 3};
     assert_int_equal(fw_accuracy_hits(1e-4, NULL, &fine, name, sizeof name, &m), FW_OK);
     assert_int_equal(fw_accuracy_hits(1e-2, NULL, &usual, NULL, 0, &m), FW_OK);
@@ -24,8 +24,10 @@ static void pairs(void **state)
 {
     (void)state;
     fw_trial_sample a[4] = {{.is_ok = true, .depth = 1.1}, {.is_ok = true, .depth = 2}, {.is_ok = true}, {.depth = 9}};
-    fw_trial_sample b[4] = {{.is_ok = true, .depth = 0.9}, {.is_ok = true, .depth = 2}, {.is_ok = true}, {.is_ok = true, .depth = 1}};
-    fw_pairs        same = fw_pairs_compare(4, a, a, fw_trial_depth, NULL), p = fw_pairs_compare(4, a, b, fw_trial_depth, NULL);
+    fw_trial_sample b[4] = {
+        {.is_ok = true, .depth = 0.9}, {.is_ok = true, .depth = 2}, {.is_ok = true}, {.is_ok = true, .depth = 1}};
+    fw_pairs same = fw_pairs_compare(4, a, a, fw_trial_depth, NULL),
+             p = fw_pairs_compare(4, a, b, fw_trial_depth, NULL);
     assert_true(same.n == 2 && same.mean == 0 && same.rms == 0 && same.error == 0);
     assert_int_equal(p.n, 2); /* a failed window and one without wear say nothing */
     CHECK_NEAR(p.mean, 0.1, 1e-15);
@@ -55,12 +57,14 @@ static void percentile_error(void **state)
         assert_int_equal(fw_record_init(&records[i], c.model.n_arcs, c.model.n_laws, &m), FW_OK);
         made_up_read(&source, i, &records[i], &m);
     }
-    double z = gsl_cdf_ugaussian_Pinv(0.9), phi = exp(-0.5 * z * z) / sqrt(2 * 3.14159265358979323846), before = INFINITY;
+    double z = gsl_cdf_ugaussian_Pinv(0.9), phi = exp(-0.5 * z * z) / sqrt(2 * 3.14159265358979323846),
+           before = INFINITY;
     for (size_t n = 32; n <= 512; n *= 4) {
         double error, value, known = sqrt(0.09 / (double)n) * 0.5 / phi;
         assert_int_equal(fw_accuracy_percentile_error(&c, N, records, 0.9, n, &error, &value, &m), FW_OK);
         print_message("n = %zu: %.3g, known %.3g\n", n, error, known);
-        CHECK_RELATIVE(error, known, 0.3); /* 64 sub-sets know their r.m.s. to 9 %, one pool of 1024 has a density of its own */
+        CHECK_RELATIVE(error, known,
+                       0.3); /* 64 sub-sets know their r.m.s. to 9 %, one pool of 1024 has a density of its own */
         assert_true(error < 0.75 * before);
         before = error;
     }
@@ -103,9 +107,11 @@ static void check_choice(const fw_accuracy *a, double accuracy)
 {
     const fw_accuracy_row *chosen = find(a, is_chosen), *usual = find(a, is_default);
     assert_true(a->choice.is_within && a->choice.error <= accuracy);
-    assert_true(chosen->numerics.tolerance == a->choice.numerics.tolerance && chosen->numerics.scheme == FW_SCHEME_EVENTS);
+    assert_true(chosen->numerics.tolerance == a->choice.numerics.tolerance &&
+                chosen->numerics.scheme == FW_SCHEME_EVENTS);
     assert_true(chosen->hit_error <= accuracy && chosen->truncation <= accuracy);
-    assert_true(chosen->evaluations <= usual->evaluations); /* the built-in choice is within the accuracy, and one of the candidates */
+    assert_true(chosen->evaluations <=
+                usual->evaluations); /* the built-in choice is within the accuracy, and one of the candidates */
 }
 
 /* Errors of order 2 fall with the tolerance, and the finest of its levels is much better than the coarsest. */
@@ -180,6 +186,7 @@ static void stopped(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(hits_are_the_reference), cmocka_unit_test(pairs),
-                                       cmocka_unit_test(percentile_error), cmocka_unit_test(whole_study), cmocka_unit_test(stopped)};
+                                       cmocka_unit_test(percentile_error), cmocka_unit_test(whole_study),
+                                       cmocka_unit_test(stopped)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
