@@ -1,6 +1,7 @@
 /* Who is stepped: all ice past the inlet is awake, neighbours are listed with a skin, floes past the outlet are forgotten. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "kernel/plain_inside.h"
@@ -27,6 +28,7 @@ void fw_plain_destroy(fw_plain *p)
     free(p->near_wall);
     free(p->wall);
     free(p->t_touch);
+    free(p->slope);
     free(p->is_gone);
     free(p);
 }
@@ -52,11 +54,14 @@ static fw_status wake_all(fw_plain *p, fw_world *w, fw_msg *m)
 
 static fw_status list(fw_plain *p, fw_world *w, fw_msg *m)
 {
+    size_t n_given = p->has_started ? 0 : w->n_bodies;
     FW_TRY(wake_all(p, w, m));
     FW_TRY(fw_neighbours_list(&p->neighbours, &p->setup, w, m));
     FW_TRY(fw_grow(&p->law, &p->law_capacity, p->neighbours.n_near + 1, sizeof *p->law, "plain kernel", m));
     FW_TRY(fw_grow(&p->force, &p->force_capacity, 3 * w->n_bodies + 3, sizeof *p->force, "plain kernel", m));
     FW_TRY(fw_grow(&p->t_touch, &p->touch_capacity, w->n_bodies + 1, sizeof *p->t_touch, "plain kernel", m));
+    if (p->numerics.scheme == FW_SCHEME_VERLET)
+        FW_TRY(fw_grow(&p->slope, &p->slope_capacity, 3 * w->n_bodies + 3, sizeof *p->slope, "plain kernel", m));
     if (p->numerics.scheme == FW_SCHEME_RK4)
         FW_TRY(fw_grow(&p->stage, &p->stage_capacity, 10 * w->n_bodies + 10, sizeof *p->stage, "plain kernel", m));
     FW_TRY(fw_grow(&p->is_gone, &p->gone_capacity, w->n_bodies + 1, sizeof *p->is_gone, "plain kernel", m));
@@ -72,7 +77,24 @@ static fw_status list(fw_plain *p, fw_world *w, fw_msg *m)
     p->n_walls = 0;
     for (size_t q = 0; q < p->neighbours.n_near; q++)
         if (p->neighbours.near[q].j == FW_WALL) p->near_wall[p->n_walls++] = q;
+    fw_plain_begin_slopes(p, w, n_given);
+    p->has_started = true;
     return FW_OK;
+}
+
+/* What is kept per floe moves with the floes, and what the gone ones leave behind is cleared for those that are woken next. */
+static void forget(fw_plain *p, fw_world *w)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < w->n_bodies; i++) {
+        if (p->is_gone[i]) continue;
+        p->t_touch[kept] = p->t_touch[i];
+        if (p->slope) memmove(p->slope + 3 * kept, p->slope + 3 * i, 3 * sizeof *p->slope);
+        kept++;
+    }
+    if (p->slope) memset(p->slope + 3 * kept, 0, 3 * (w->n_bodies - kept) * sizeof *p->slope);
+    fw_world_forget(w, p->is_gone);
+    p->neighbours.is_valid = false;
 }
 
 fw_status fw_plain_step(fw_plain *p, fw_world *w, fw_wear *wear, double t_end, fw_msg *m)
@@ -87,12 +109,7 @@ fw_status fw_plain_step(fw_plain *p, fw_world *w, fw_wear *wear, double t_end, f
     }
     bool any = false;
     for (size_t i = 0; i < w->n_bodies; i++) any |= p->is_gone[i] = w->bodies[i].x > p->setup.downstream;
-    if (any) {
-        for (size_t i = 0, kept = 0; i < w->n_bodies; i++)
-            if (!p->is_gone[i]) p->t_touch[kept++] = p->t_touch[i];
-        fw_world_forget(w, p->is_gone);
-        p->neighbours.is_valid = false;
-    }
+    if (any) forget(p, w);
     FW_CHECK(isfinite(fw_world_energy(w)), m, FW_E_NUMERIC, "plain method: the state is not finite at t = %.6g s",
              w->t);
     w->ledger.macro_steps++;

@@ -27,10 +27,15 @@ struct fw_plain {
     size_t                wall_capacity;
     double               *t_touch; /* (n_bodies) when the contact with the structure closed */
     size_t                touch_capacity;
-    bool                 *is_gone;
-    size_t                gone_capacity;
+    double *slope; /* (n_bodies x 3) accelerations at the step's start, of Verlet; 0: drifts with the water */
+    size_t  slope_capacity;
+    bool    has_started;
+    bool   *is_gone;
+    size_t  gone_capacity;
 };
 
+/* Accelerations of the first n floes, for Verlet: of those that were there at the start. What is woken later drifts with the water. */
+void fw_plain_begin_slopes(fw_plain *p, fw_world *w, size_t n);
 /* One step of the scheme; advances the world's time and drift. */
 void fw_plain_advance(fw_plain *p, fw_world *w, fw_wear *wear, double dt);
 

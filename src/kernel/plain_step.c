@@ -78,16 +78,18 @@ static void verlet(fw_plain *p, fw_world *w, fw_wear *wear, double dt)
 {
     const double *f = p->force;
     for (size_t i = 0; i < w->n_bodies; i++) {
-        fw_body *b = &w->bodies[i];
-        b->x += dt * (b->vx + 0.5 * dt * b->ax), b->y += dt * (b->vy + 0.5 * dt * b->ay);
-        b->vx += dt * b->ax, b->vy += dt * b->ay, b->spin += dt * b->as;
+        fw_body      *b = &w->bodies[i];
+        const double *a = p->slope + 3 * i;
+        b->x += dt * (b->vx + 0.5 * dt * a[0]), b->y += dt * (b->vy + 0.5 * dt * a[1]);
+        b->vx += dt * a[0], b->vy += dt * a[1], b->spin += dt * a[2];
     }
     forces(p, w, wear, dt, false);
     for (size_t i = 0; i < w->n_bodies; i++) {
         fw_body *b = &w->bodies[i];
+        double  *a = p->slope + 3 * i;
         double   ax = f[3 * i] * b->inv_mass, ay = f[3 * i + 1] * b->inv_mass, as = f[3 * i + 2] * b->inv_inertia;
-        b->vx += 0.5 * dt * (ax - b->ax), b->vy += 0.5 * dt * (ay - b->ay), b->spin += 0.5 * dt * (as - b->as);
-        b->ax = ax, b->ay = ay, b->as = as;
+        b->vx += 0.5 * dt * (ax - a[0]), b->vy += 0.5 * dt * (ay - a[1]), b->spin += 0.5 * dt * (as - a[2]);
+        a[0] = ax, a[1] = ay, a[2] = as;
     }
 }
 
@@ -111,6 +113,18 @@ static void rk4(fw_plain *p, fw_world *w, fw_wear *wear, double dt)
                 *state[k] = start[k] + (stage < 3 ? next * slope[k] : dt * sum[k]);
             }
         }
+    }
+}
+
+void fw_plain_begin_slopes(fw_plain *p, fw_world *w, size_t n)
+{
+    if (p->numerics.scheme != FW_SCHEME_VERLET || n == 0) return;
+    forces(p, w, &(fw_wear){.is_open = false}, 0, false);
+    for (size_t i = 0; i < n; i++) {
+        const fw_body *b = &w->bodies[i];
+        p->slope[3 * i] = p->force[3 * i] * b->inv_mass;
+        p->slope[3 * i + 1] = p->force[3 * i + 1] * b->inv_mass;
+        p->slope[3 * i + 2] = p->force[3 * i + 2] * b->inv_inertia;
     }
 }
 
