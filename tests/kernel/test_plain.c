@@ -24,7 +24,6 @@ static fw_setup setup(void)
                       .ice_density = 900,
                       .drag_per_area = 0.5 * 1025 * 10,
                       .velocity_scale = 2,
-                      .macro_length = 0.2,
                       .skin = 2,
                       .half_width = INFINITY,
                       .downstream = INFINITY,
