@@ -65,8 +65,8 @@ typedef enum fw_scheme {
 } fw_scheme;
 
 typedef enum fw_wear_rule {
-    FW_WEAR_HERMITE,  /* overlap as a cubic, Gauss nodes in (time since touch)^(1 - m/2) */
-    FW_WEAR_SINGULAR, /* the same nodes, overlap and forces linear between the step's ends */
+    FW_WEAR_HERMITE,  /* overlap as a cubic, force through the stages, nodes that know how a touch begins */
+    FW_WEAR_SINGULAR, /* the same nodes, overlap, force and slip linear between the step's ends */
     FW_WEAR_NAIVE     /* the rate at the step's end times the step */
 } fw_wear_rule;
 

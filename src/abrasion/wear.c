@@ -1,6 +1,7 @@
 #include "abrasion/wear.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,7 +9,11 @@
 #include "geometry/lens.h"
 #include "geometry/ring.h"
 
+enum { ALL, IMPACT, HIGH, PATH, QUAD };
+
 static const double TWO_PI = 6.283185307179586476925286766559;
+static const double PER_ROOT =
+    1.2909944487358056; /* 1 / sqrt(3/5): the outer Gauss nodes are sqrt(3/5) of the interval apart */
 
 fw_status fw_wear_init(fw_wear *w, double structure_radius, size_t n_arcs, size_t n_laws, const fw_abrasion_law *laws,
                        fw_msg *m)
@@ -18,14 +23,18 @@ fw_status fw_wear_init(fw_wear *w, double structure_radius, size_t n_arcs, size_
     w->n_arcs = n_arcs;
     w->n_laws = n_laws;
     w->high_pressure = 5e6;
+    size_t  n_rings = 1 + 3 * n_laws;
     double *block;
-    FW_TRY(fw_alloc(&block, n_arcs * (1 + 3 * n_laws) + n_arcs + 1, sizeof *block, "wear ring", m));
+    FW_TRY(fw_alloc(&block, n_arcs * (n_rings + QUAD * n_laws) + QUAD, sizeof *block, "wear ring", m));
     w->path = block;
-    w->share = block + n_arcs * (1 + 3 * n_laws);
+    w->cells = block + n_arcs * n_rings;
+    while ((uintptr_t)w->cells % (QUAD * sizeof *w->cells)) w->cells++; /* no quad across two cache lines */
     for (size_t l = 0; l < n_laws; l++) {
         w->exponent[l] = laws[l].exponent;
+        fw_power_init(&w->power[l], laws[l].exponent);
         for (size_t q = 0; q < 3; q++) w->load[l][q] = block + n_arcs * (1 + 3 * l + q);
     }
+    fw_rule_init(&w->quadrature, n_laws, w->exponent);
     return FW_OK;
 }
 
@@ -35,149 +44,144 @@ void fw_wear_free(fw_wear *w)
     memset(w, 0, sizeof *w);
 }
 
-/* Lagrange interpolation through the stages: scale once per interval, basis once per instant, one sum per quantity. */
-typedef struct stages {
-    size_t        n;
-    const double *at;
-    double        scale[FW_WEAR_STAGES], basis[FW_WEAR_STAGES];
-} stages;
+/* What one patch leaves on the wall, each a quantity times the patch's chord: a quad per law as in fw_wear.cells. */
+typedef double deposit[FW_MAX_LAWS * QUAD];
 
-static void stages_set(stages *s, size_t n, const double *at)
+/* The patch's centre moves from `from` to `to`, its chord grows by `growth` on the way. Its arc is a little longer than its
+ * chord; amounts per chord keep the integral. */
+static void spread(fw_wear *w, const deposit d, double from, double to, double chord, double growth)
 {
-    s->n = n, s->at = at;
-    for (size_t i = 0; i < n; i++) {
-        double p = 1;
-        for (size_t j = 0; j < n; j++)
-            if (j != i) p *= at[i] - at[j];
-        s->scale[i] = 1 / p;
+    double wide = 2 * w->structure_radius, sine = chord / wide, half = asin(sine < 1 ? sine : 1);
+    double more = 0.5 * growth / wide, low[2] = {from - half + more, to - half - more};
+    double high[2] = {from + half - more, to + half + more};
+    fw_ring_spread(w->cells, w->n_laws, w->n_arcs, low, high, d);
+}
+
+/* What a node is besides its numbers; bits. */
+enum { IS_IMPACT = 1, IS_BEYOND = 2 };
+
+static unsigned traits(const fw_wear *w, const fw_wear_interval *iv, double u, double depth)
+{
+    double small = iv->radius < w->structure_radius ? iv->radius : w->structure_radius;
+    return (u * iv->length < iv->impact_left ? IS_IMPACT : 0) | (depth > 0.1 * small ? IS_BEYOND : 0);
+}
+
+/* Share of a node's load above high_pressure. Soon after a touch sigma = p / lift falls through it inside a node's part of the
+ * interval, lift^2 growing evenly and p hardly changing; counting whole nodes there would be 10 % off. */
+static double high(const fw_wear *w, const fw_wear_interval *iv, const fw_rule_nodes *at, size_t q, double p)
+{
+    double lift2 = at->lift[q] * at->lift[q], ratio = p / w->high_pressure;
+    if (lift2 == 1) return ratio > 1 ? 1 : 0;
+    double per_u = lift2 / (iv->since_touch / iv->length + at->u[q]), from = lift2 + per_u * (at->from[q] - at->u[q]);
+    double share = (ratio * ratio - from) / (per_u * (at->to[q] - at->from[q]));
+    return share < 0 ? 0 : share < 1 ? share : 1;
+}
+
+/* Of law l, along the contact and on the wall. */
+static void count(fw_wear *w, size_t l, double path, double along, double wall, unsigned is, double above, deposit d)
+{
+    fw_wear_sums *s = &w->sums[l];
+    s->path += path, s->along += along, s->x_wall += wall;
+    if (is & IS_IMPACT) s->impact += along;
+    if (is & IS_BEYOND) s->beyond += along;
+    d[QUAD * l + ALL] = wall;
+    d[QUAD * l + IMPACT] = is & IS_IMPACT ? wall : 0;
+    d[QUAD * l + HIGH] = wall * above;
+    if (l > 0) d[QUAD * l + PATH] = 0;
+}
+
+/* The usual interval. Its three patches are laid down as one that sweeps from the interval's start to its end, when that is as
+ * good: total and mean edges stay. Load that grows while the patch moves then lies a twelfth of growth x way too far back, and
+ * edges that do not move evenly are off by less than the limit here: both small parts of an arc, and gone again when the
+ * patch slows or shrinks. */
+static void collect_smooth(fw_wear *w, const fw_wear_interval *iv, const fw_rule_smooth *at, double turn)
+{
+    static const double U[3] = FW_RULE_NODES3, WEIGHT[3] = FW_RULE_WEIGHTS3;
+    double              chord[4], p[4], path[3], above[3];
+    unsigned            is[3];
+    fw_lens_chords(at->depth, iv->radius, w->structure_radius, chord);
+    for (size_t q = 0; q < 4; q++) p[q] = at->normal[q] / (chord[q] * iv->thickness);
+    for (size_t q = 0; q < 3; q++) {
+        path[q] = fabs(at->slip[q]) * (WEIGHT[q] * iv->length);
+        is[q] = traits(w, iv, U[q], at->depth[q]);
+        above[q] = p[q] > w->high_pressure ? 1 : 0;
     }
-}
-
-static void stages_go_to(stages *s, double u)
-{
-    for (size_t i = 0; i < s->n; i++) {
-        double p = s->scale[i];
-        for (size_t j = 0; j < s->n; j++)
-            if (j != i) p *= u - s->at[j];
-        s->basis[i] = p;
-    }
-}
-
-static double stages_value(const stages *s, const double *value)
-{
-    double sum = 0;
-    for (size_t i = 0; i < s->n; i++) sum += s->basis[i] * value[i];
-    return sum;
-}
-
-static double hermite(double f0, double s0, double f1, double s1, double h, double u)
-{
-    double a = 1 - u;
-    return a * a * ((1 + 2 * u) * f0 + u * h * s0) + u * u * ((1 + 2 * a) * f1 - a * h * s1);
-}
-
-/* One node: weight dt, all quantities at one instant. */
-static void deposit(fw_wear *w, double dt, double normal, double slip, double chord, double angle, double thickness,
-                    bool is_impact, bool is_beyond)
-{
-    double sigma = normal / (chord * thickness), way = fabs(slip) * dt;
-    if (!(way > 0) || !(chord > 0)) return;
-    double half = asin(fmin(1.0, chord / (2 * w->structure_radius)));
-    size_t first, count = fw_ring_cover(w->n_arcs, angle, half, &first, w->share);
-    /* The arc under the patch is a little longer than the chord; chord / arc length keeps the patch's integral. */
-    double per_arc = chord * (double)w->n_arcs / (TWO_PI * w->structure_radius);
-    double add_load[FW_MAX_LAWS];
-    for (size_t l = 0; l < w->n_laws; l++) {
-        double        load = sigma > 0 ? pow(sigma, w->exponent[l]) * way : 0;
-        fw_wear_sums *s = &w->sums[l];
-        s->path += way;
-        s->along += load;
-        s->x_wall += load * chord;
-        if (is_impact) s->impact += load;
-        if (is_beyond) s->beyond += load;
-        add_load[l] = load * per_arc;
-    }
-    bool is_high = sigma > w->high_pressure;
-    for (size_t a = 0, k = first; a < count; a++, k = k + 1 == w->n_arcs ? 0 : k + 1) {
-        w->path[k] += way * per_arc * w->share[a];
+    double arcs = (double)w->n_arcs * (1 / TWO_PI), slip = fabs(at->slip[1]);
+    double growth = 2 * fabs(p[2] - p[0]) * slip + fabs(at->slip[2] - at->slip[0]) * p[1];
+    bool   is_one = fabs(chord[2] - chord[0]) * arcs < 2 * w->structure_radius &&
+                  fabs(turn) * arcs * growth < 0.5 * p[1] * slip && is[0] == is[1] && is[1] == is[2] &&
+                  above[0] == above[1] && above[1] == above[2];
+    deposit d;
+    if (is_one) {
+        double way = path[0] + path[1] + path[2];
+        d[PATH] = path[0] * chord[0] + path[1] * chord[1] + path[2] * chord[2];
         for (size_t l = 0; l < w->n_laws; l++) {
-            double add = add_load[l] * w->share[a];
-            w->load[l][0][k] += add;
-            if (is_impact) w->load[l][1][k] += add;
-            if (is_high) w->load[l][2][k] += add;
+            const fw_power *m = &w->power[l];
+            double          a = fw_power_of(m, p[0]) * path[0], b = fw_power_of(m, p[1]) * path[1];
+            double          c = fw_power_of(m, p[2]) * path[2];
+            count(w, l, way, a + b + c, a * chord[0] + b * chord[1] + c * chord[2], is[0], above[0], d);
         }
-    }
-}
-
-/* The part [u0, u1] of the interval with a force. The signed law k d + c d' is smooth where the clamp at zero has a kink, so
- * its zero is found on the interpolant: a floe that leaves slides fast on its last millimetres and a step that counts
- * whole nodes there would be off by some per cent in path. */
-static void loaded_part(stages *s, const fw_wear_interval *iv, double *u0, double *u1)
-{
-    double first = iv->normal[0], last = iv->normal[iv->n_stages - 1];
-    *u0 = 0, *u1 = 1;
-    if (first > 0 && last > 0) return;
-    if (!(first > 0) && !(last > 0)) {
-        *u1 = 0;
+        double mean = chord[0] * WEIGHT[0] + chord[1] * WEIGHT[1] + chord[2] * WEIGHT[2];
+        spread(w, d, iv->angle[0], iv->angle[0] + turn, mean, (chord[2] - chord[0]) * PER_ROOT);
         return;
     }
-    double lo = 0, hi = 1; /* loaded at lo when first > 0, else at hi */
-    for (int n = 0; n < 40; n++) {
-        double u = 0.5 * (lo + hi);
-        stages_go_to(s, u);
-        if ((stages_value(s, iv->normal) > 0) == (first > 0))
-            lo = u;
-        else
-            hi = u;
+    double edge = iv->angle[0], rise = (chord[2] - chord[0]) * PER_ROOT;
+    for (size_t q = 0; q < 3; q++) {
+        d[PATH] = path[q] * chord[q];
+        for (size_t l = 0; l < w->n_laws; l++) {
+            double along = fw_power_of(&w->power[l], p[q]) * path[q];
+            count(w, l, path[q], along, along * chord[q], is[q], above[q], d);
+        }
+        spread(w, d, edge, edge + turn * WEIGHT[q], chord[q], rise * WEIGHT[q]);
+        edge += turn * WEIGHT[q];
     }
-    if (first > 0)
-        *u1 = lo;
-    else
-        *u0 = hi;
 }
 
 void fw_wear_collect(fw_wear *w, const fw_wear_interval *iv)
 {
     if (!w->is_open || !(iv->length > 0)) return;
-    /* Gauss-Legendre, 3 nodes on (0, 1). */
-    static const double NODE[3] = {0.11270166537925831, 0.5, 0.88729833462074169};
-    static const double WEIGHT[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
-
-    double u0, u1;
-    stages at;
-    stages_set(&at, iv->n_stages, iv->at);
-    loaded_part(&at, iv, &u0, &u1);
-    if (!(u1 > u0)) return;
     double turn = iv->angle[1] - iv->angle[0];
-    turn -= TWO_PI * round(turn / TWO_PI);
-    /* A patch that moves over several arcs in a step is set down often enough for the ring to look smooth. */
-    double arcs = fabs(turn) * (u1 - u0) * (double)w->n_arcs / TWO_PI;
-    size_t parts = arcs > 24 ? 8 : (size_t)(arcs / 3) + 1;
-    /* Substitution s = t^p, p = 1 - m/2 of the first law, t the time since touch, takes the t^(-m/2) of the pressure
-     * out. Ten step lengths after the touch it is smooth enough without. */
-    double p = 1 - 0.5 * w->exponent[0], from = iv->since_touch + u0 * iv->length,
-           to = iv->since_touch + u1 * iv->length;
-    bool   is_early = iv->since_touch < 10 * iv->length;
-    double s0 = is_early ? pow(from, p) : from, s1 = is_early ? pow(to, p) : to;
-    for (size_t part = 0; part < parts; part++) {
-        for (size_t q = 0; q < 3; q++) {
-            double f = ((double)part + NODE[q]) / (double)parts, t = s0 + (s1 - s0) * f;
-            double dt = (s1 - s0) * WEIGHT[q] / (double)parts;
-            if (is_early) {
-                double s = t;
-                t = pow(s, 1 / p);
-                dt *= t / (p * s);
-            }
-            double u = fmin(1.0, fmax(0.0, (t - iv->since_touch) / iv->length));
-            double depth = hermite(iv->depth[0], iv->rate[0], iv->depth[1], iv->rate[1], iv->length, u);
-            stages_go_to(&at, u);
-            double normal = stages_value(&at, iv->normal);
-            if (!(depth > 0) || !(normal > 0)) continue;
-            double slip = stages_value(&at, iv->slip);
-            double chord = fw_lens_chord(depth, iv->radius, w->structure_radius);
-            deposit(w, dt, normal, slip, chord, iv->angle[0] + turn * u, iv->thickness,
-                    u * iv->length<iv->impact_left, depth> 0.1 * fmin(iv->radius, w->structure_radius));
+    if (fabs(turn) > 0.5 * TWO_PI) turn -= TWO_PI * round(turn / TWO_PI);
+    fw_rule_smooth smooth;
+    if (fw_rule_is_smooth(&w->quadrature, w->rule, iv, &smooth)) {
+        collect_smooth(w, iv, &smooth, turn);
+        return;
+    }
+    fw_rule_nodes at;
+    fw_rule_apply(&w->quadrature, w->rule, iv, &at);
+    double chords[FW_RULE_NODES];
+    for (size_t q = 0; q < at.n; q++) chords[q] = fw_lens_chord(at.depth[q], iv->radius, w->structure_radius);
+    for (size_t q = 0; q < at.n; q++) {
+        double slip = fabs(at.slip[q]), chord = chords[q];
+        if (!(slip > 0) || !(chord > 0) || !(at.normal[q] > 0)) continue;
+        double   breadth = chord / at.lift[q], p = at.normal[q] / (breadth * iv->thickness);
+        double   above = high(w, iv, &at, q, p);
+        unsigned is = traits(w, iv, at.u[q], at.depth[q]);
+        deposit  d;
+        d[PATH] = slip * breadth * at.wide[q];
+        for (size_t l = 0; l < w->n_laws; l++) {
+            double rate = fw_power_of(&w->power[l], p) * slip;
+            count(w, l, slip * at.dt[q], rate * at.along[l][q], rate * breadth * at.wall[l][q], is, above, d);
         }
+        /* the patch grows from half-way to the node before to half-way to the one after, else the ring would show steps */
+        double before = q > 0          ? 0.5 * (chord + chords[q - 1])
+                        : q + 1 < at.n ? 1.5 * chord - 0.5 * chords[q + 1]
+                                       : chord;
+        double after = q + 1 < at.n ? 0.5 * (chord + chords[q + 1]) : q > 0 ? 1.5 * chord - 0.5 * chords[q - 1] : chord;
+        before = before > 0 ? before : 0, after = after > 0 ? after : 0;
+        spread(w, d, iv->angle[0] + turn * at.from[q], iv->angle[0] + turn * at.to[q], 0.5 * (before + after),
+               after - before);
+    }
+}
+
+void fw_wear_finish(fw_wear *w)
+{
+    double per_arc = (double)w->n_arcs / (TWO_PI * w->structure_radius);
+    for (size_t k = 0; k < w->n_arcs; k++) {
+        const double *cell = w->cells + k * QUAD * w->n_laws;
+        w->path[k] = cell[PATH] * per_arc;
+        for (size_t l = 0; l < w->n_laws; l++)
+            for (size_t q = ALL; q <= HIGH; q++) w->load[l][q][k] = cell[QUAD * l + q] * per_arc;
     }
 }
 

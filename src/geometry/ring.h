@@ -7,9 +7,21 @@
 
 double fw_ring_angle(double x, double y); /* theta of a point, in [0, 2 pi) */
 
-/* The arcs that a patch [centre - half, centre + half] covers, as shares of its width: share[0..count-1] belongs to arcs
- * first, first + 1, ... modulo n_arcs and sums to 1. capacity >= n_arcs + 1. Returns count; half < pi. A patch of no
- * width belongs to the arc that holds its centre. */
-size_t fw_ring_cover(size_t n_arcs, double centre, double half, size_t *first, double *share);
+/* Lay down on the ring what a patch [low, high] leaves there while each of its edges moves evenly from angle [0] to angle [1]:
+ *
+ *        share     ______________             the low edge sweeps over the arcs of one slope, the high edge over those of the
+ *        of an    /              `--__        other; upright where an edge rests
+ *        arc   __/                    `--__
+ *
+ * cells    (n_arcs, n_quads, 4): cells[arc][i] += amount[i] x the arc's share. Several quantities at once, four doubles a step,
+ *          because a patch covers ten arcs or twenty and each quantity would find them anew
+ * amount   (n_quads, 4)
+ *
+ * The shares are at least 0 and sum to 1; cells of arcs not covered keep their bits. low <= high at both times, and no patch with
+ * its sweep longer than the ring. A patch narrower than a thousandth of an arc counts as that wide: keeps the shares exact.
+ * A difference array (four entries a patch, summed up at the end) was considered: at these widths it costs as much, and
+ * arcs that nothing reached would hold rounding errors. */
+void fw_ring_spread(double *cells, size_t n_quads, size_t n_arcs, const double low[2], const double high[2],
+                    const double *amount);
 
 #endif

@@ -170,6 +170,7 @@ fw_status fw_realise(const fw_model *model, const fw_scenario *sc, const fw_tick
         r.wear.rule = model->numerics.wear_rule;
         r.wear.is_open = true;
         s = go(&r, t_all, t_all, tick, &stopped, m);
+        fw_wear_finish(&r.wear);
     }
     /* A failure of the physics or of its limits is a record; no memory, a full disk or a stop are not. */
     bool is_failure = stopped == FW_OK && (s == FW_E_NUMERIC || s == FW_E_LIMIT);

@@ -114,6 +114,7 @@ fw_status fw_scene_run(const fw_scene *scene, const fw_tick *tick, const fw_fram
         r->status = s;
         if (m && s != FW_OK) snprintf(r->cause, sizeof r->cause, "%.*s", (int)sizeof r->cause - 1, m->text);
         r->speed = scene->speed;
+        fw_wear_finish(&wear);
         fw_outcome_fill(r, w, &wear, scene->duration);
         r->host_cpu_s = fw_outcome_cpu_now() - cpu;
         const fw_wear_sums *sum = &wear.sums[0];

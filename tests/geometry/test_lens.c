@@ -52,9 +52,22 @@ static void ugly_depths(void **state)
     }
 }
 
+static void four_at_once(void **state)
+{
+    (void)state;
+    static const double R[] = {0.6, 1.25, 3.7, 6.28};
+    for (size_t i = 0; i < 4; i++)
+        for (double d = -0.1; d < 9; d += 0.37) {
+            double depth[4] = {d, d * 1e-6, d * 0.5, 2 * d}, chord[4];
+            fw_lens_chords(depth, R[i], 3.7, chord);
+            for (int q = 0; q < 4; q++) assert_true(chord[q] == fw_lens_chord(depth[q], R[i], 3.7));
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(agrees_with_circle_equations),
-                                       cmocka_unit_test(is_symmetric_and_shallow_limit), cmocka_unit_test(ugly_depths)};
+                                       cmocka_unit_test(is_symmetric_and_shallow_limit), cmocka_unit_test(ugly_depths),
+                                       cmocka_unit_test(four_at_once)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -132,6 +132,7 @@ static void mirror_images(void **state)
         put(&r[i], -6.6, f * -2.6, 5, 0.5, 2, 0, 0, 5125);
         put(&r[i], -11.8, f * 0.2, 5, 1, 2, 0, 0, 5125);
         run(&r[i], 6);
+        fw_wear_finish(&r[i].wear);
     }
     for (size_t i = 0; i < 3; i++) {
         CHECK_NEAR(r[1].w->bodies[i].x, r[0].w->bodies[i].x, 1e-9);

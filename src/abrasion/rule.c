@@ -1,0 +1,274 @@
+#include "abrasion/rule.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Gauss-Legendre on (0, 1). */
+static const double NODE3[] = FW_RULE_NODES3, WEIGHT3[] = FW_RULE_WEIGHTS3;
+static const double NODE5[] = {0.046910077030668004, 0.23076534494715846, 0.5, 0.76923465505284154,
+                               0.95308992296933200};
+static const double WEIGHT5[] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324,
+                                 0.11846344252809454};
+static const double NODE4[] = {0.069431844202973712, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629};
+static const double WEIGHT4[] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
+
+/* An interval that begins sooner after the touch than this many of its own lengths takes each law's own weights; past it
+ * three Gauss nodes leave 2e-6 of t^(-1/2 m). */
+static const double EARLY = 2;
+/* Force at one end below this share of the other: nodes drawn to that end. */
+static const double FADED = 0.25;
+
+/* Lagrange polynomials of n nodes: out[k][i] is the coefficient of u^k in the polynomial that is 1 at node i. */
+static void lagrange(size_t n, const double *at, size_t row, double *out)
+{
+    for (size_t i = 0; i < n; i++) {
+        double c[FW_WEAR_STAGES] = {1}, scale = 1;
+        size_t degree = 0;
+        for (size_t j = 0; j < n; j++) {
+            if (j == i) continue;
+            scale *= at[i] - at[j];
+            degree++;
+            for (size_t k = degree; k > 0; k--) c[k] = c[k - 1] - at[j] * c[k];
+            c[0] *= -at[j];
+        }
+        for (size_t k = 0; k < n; k++) out[k * row + i] = c[k] / scale;
+    }
+}
+
+void fw_rule_init(fw_rule *r, size_t n_laws, const double *exponent)
+{
+    memset(r, 0, sizeof *r);
+    r->n_laws = n_laws;
+    for (size_t l = 0; l < n_laws; l++) r->exponent[l] = exponent[l];
+    lagrange(FW_RULE_TOUCH, NODE4, FW_RULE_TOUCH, &r->touch[0][0]);
+}
+
+/* Force, slip and overlap of one interval as polynomials in u, its share of the length. */
+typedef struct course {
+    size_t n; /* coefficients of normal and slip */
+    double normal[FW_WEAR_STAGES], slip[FW_WEAR_STAGES], depth[4];
+} course;
+
+static double value(size_t n, const double *c, double u)
+{
+    double sum = c[n - 1];
+    for (size_t k = n - 1; k-- > 0;) sum = sum * u + c[k];
+    return sum;
+}
+
+static void know_stages(fw_rule *r, const fw_wear_interval *iv)
+{
+    size_t n = iv->n_stages;
+    bool   is_known = n == r->n_stages;
+    for (size_t i = 0; i < n && is_known; i++) is_known = iv->at[i] == r->at[i];
+    if (is_known) return;
+    r->n_stages = n;
+    for (size_t i = 0; i < n; i++) r->at[i] = iv->at[i];
+    lagrange(n, iv->at, FW_WEAR_STAGES, &r->to_power[0][0]);
+    for (size_t i = 0; i < n; i++)
+        for (size_t q = 0; q < 4; q++) {
+            double u = NODE3[q < 3 ? q : 1], sum = 0;
+            for (size_t k = n; k-- > 0;) sum = sum * u + r->to_power[k][i];
+            r->to_node[i][q] = sum;
+        }
+}
+
+static void through_stages(fw_rule *r, const fw_wear_interval *iv, course *c)
+{
+    size_t n = iv->n_stages;
+    know_stages(r, iv);
+    c->n = n;
+    for (size_t k = 0; k < n; k++) {
+        double normal = 0, slip = 0;
+        for (size_t i = 0; i < n; i++) {
+            normal += r->to_power[k][i] * iv->normal[i];
+            slip += r->to_power[k][i] * iv->slip[i];
+        }
+        c->normal[k] = normal, c->slip[k] = slip;
+    }
+    double rise = iv->depth[1] - iv->depth[0], s0 = iv->length * iv->rate[0], s1 = iv->length * iv->rate[1];
+    c->depth[0] = iv->depth[0], c->depth[1] = s0;
+    c->depth[2] = 3 * rise - 2 * s0 - s1, c->depth[3] = s0 + s1 - 2 * rise;
+}
+
+static void through_ends(const fw_wear_interval *iv, course *c)
+{
+    size_t last = iv->n_stages - 1;
+    *c = (course){.n = 2,
+                  .normal = {iv->normal[0], iv->normal[last] - iv->normal[0]},
+                  .slip = {iv->slip[0], iv->slip[last] - iv->slip[0]},
+                  .depth = {iv->depth[0], iv->depth[1] - iv->depth[0]}};
+}
+
+/* Zero of a polynomial between a and b, where it has the signs of fa and fb: false position, Illinois variant. */
+static double zero(size_t n, const double *c, double a, double fa, double b, double fb)
+{
+    for (int i = 0; i < 60 && fabs(b - a) > 1e-14 && fb != 0; i++) {
+        double x = b - fb * (b - a) / (fb - fa), fx = value(n, c, x);
+        if ((fx > 0) == (fb > 0))
+            fa *= 0.5;
+        else
+            a = b, fa = fb;
+        b = x, fb = fx;
+    }
+    return b;
+}
+
+enum kind { SMOOTH, TOUCH, FADES, GROWS };
+
+/* Weights at the touch nodes for int t^(e-1) f dt from start t_end to t_end, f smooth, at nodes freed of (t / t_end)^(e-1).
+ * In x = t / t_end and z = (x - start) / (1 - start) the moments J_k = int x^(e-1) z^k dx follow by parts from J_0, given as
+ * rest = 1 - start^e. */
+static void touch_weights(const fw_rule *r, double e, double start, double rest, double t_end, double *weight)
+{
+    double J[FW_RULE_TOUCH], step = start / (1 - start);
+    J[0] = rest / e;
+    for (size_t k = 1; k < FW_RULE_TOUCH; k++) J[k] = (1 - (double)k * step * J[k - 1]) / ((double)k + e);
+    for (size_t i = 0; i < FW_RULE_TOUCH; i++) {
+        double sum = 0;
+        for (size_t k = 0; k < FW_RULE_TOUCH; k++) sum += r->touch[k][i] * J[k];
+        weight[i] = sum * t_end;
+    }
+}
+
+/* Nodes of one piece [a, b]. GROWS and FADES put u at a distance (1 - v)^2 from the end where the force is nil: a rate
+ * like distance^m becomes (1 - v)^(2m + 1). */
+static void add_piece(const fw_rule *r, const fw_wear_interval *iv, const course *c, enum kind kind, double a, double b,
+                      fw_rule_nodes *to)
+{
+    size_t        n = kind == SMOOTH ? 3 : kind == TOUCH ? FW_RULE_TOUCH : FW_RULE_FADE;
+    const double *node = n == 3 ? NODE3 : n == FW_RULE_TOUCH ? NODE4 : NODE5;
+    const double *weight = n == 3 ? WEIGHT3 : n == FW_RULE_TOUCH ? WEIGHT4 : WEIGHT5;
+    double        done = 0, edge = a, width = b - a;
+    for (size_t i = 0; i < n; i++) {
+        size_t q = to->n + i;
+        double u = a + width * node[i], dt = width * weight[i] * iv->length, next = done + weight[i];
+        double end = a + width * next;
+        if (kind == FADES) {
+            double v = 1 - node[i], w = 1 - next;
+            u = b - width * v * v, end = b - width * w * w, dt *= 2 * v;
+        } else if (kind == GROWS) {
+            u = a + width * node[i] * node[i], end = a + width * next * next, dt *= 2 * node[i];
+        }
+        to->u[q] = u, to->dt[q] = dt, to->lift[q] = 1;
+        to->from[q] = edge, to->to[q] = edge = i + 1 < n ? end : b;
+        done = next;
+        to->wide[q] = dt;
+        for (size_t l = 0; l < r->n_laws; l++) to->along[l][q] = to->wall[l][q] = dt;
+        to->normal[q] = value(c->n, c->normal, u), to->slip[q] = value(c->n, c->slip, u);
+        to->depth[q] = value(4, c->depth, u);
+    }
+    if (kind == TOUCH) {
+        double t_end = iv->since_touch + b * iv->length, start = fmax(0, 1 - width * iv->length / t_end);
+        double root = sqrt(start), log_start = log(start);
+        for (size_t i = 0; i < n; i++) to->lift[to->n + i] = sqrt(start + (1 - start) * node[i]);
+        touch_weights(r, 1.5, start, 1 - start * root, t_end, to->wide + to->n);
+        for (size_t l = 0; l < r->n_laws; l++) {
+            double e = 1 - 0.5 * r->exponent[l], rest = -expm1(e * log_start); /* e may be close to 0 */
+            touch_weights(r, e, start, rest, t_end, to->along[l] + to->n);
+            touch_weights(r, e + 0.5, start, 1 - (1 - rest) * root, t_end, to->wall[l] + to->n);
+        }
+    }
+    to->n += n;
+}
+
+/* One piece without a change of slip's sign; na, nb: force at its ends. */
+static void add(const fw_rule *r, const fw_wear_interval *iv, const course *c, double a, double na, double b, double nb,
+                fw_rule_nodes *to)
+{
+    if (!(b > a)) return;
+    bool      is_early = iv->since_touch + a * iv->length < EARLY * (b - a) * iv->length;
+    enum kind kind = nb < FADED * na ? FADES : na < FADED * nb ? GROWS : SMOOTH;
+    /* with next to no damping the force of a touch grows from little: still a touch, unless it begins at nil */
+    if (is_early && kind == GROWS && na > 0.05 * nb) kind = SMOOTH;
+    if (is_early && kind == FADES) {
+        double middle = 0.5 * (a + b);
+        add_piece(r, iv, c, TOUCH, a, middle, to);
+        add_piece(r, iv, c, FADES, middle, b, to);
+    } else {
+        add_piece(r, iv, c, is_early && kind == SMOOTH ? TOUCH : kind, a, b, to);
+    }
+}
+
+/* Cubic Hermite weights of both ends' values and slopes at the smooth nodes. */
+#define EACH(f)                                                                                                        \
+    {                                                                                                                  \
+        f(0.11270166537925831), f(0.5), f(0.88729833462074169), f(0.5)                                                 \
+    }
+#define VALUE(u)     ((1 + 2 * (u)) * (1 - (u)) * (1 - (u)))
+#define SLOPE(u)     ((u) * (1 - (u)) * (1 - (u)))
+#define END_VALUE(u) ((3 - 2 * (u)) * (u) * (u))
+#define END_SLOPE(u) (-(1 - (u)) * (u) * (u))
+static const double D0[4] = EACH(VALUE), S0[4] = EACH(SLOPE), D1[4] = EACH(END_VALUE), S1[4] = EACH(END_SLOPE);
+
+bool fw_rule_is_smooth(fw_rule *r, fw_wear_rule rule, const fw_wear_interval *restrict iv, fw_rule_smooth *restrict to)
+{
+    size_t last = iv->n_stages - 1;
+    double na = iv->normal[0], nb = iv->normal[last], sa = iv->slip[0], sb = iv->slip[last];
+    if (rule == FW_WEAR_NAIVE || iv->since_touch < EARLY * iv->length || !(na > 0) || !(nb > 0)) return false;
+    if (nb < FADED * na || na < FADED * nb || !(sa * sb > 0)) return false;
+    if (rule == FW_WEAR_SINGULAR) {
+        for (size_t q = 0; q < 4; q++) {
+            double u = NODE3[q < 3 ? q : 1];
+            to->normal[q] = na + u * (nb - na), to->slip[q] = sa + u * (sb - sa);
+            to->depth[q] = iv->depth[0] + u * (iv->depth[1] - iv->depth[0]);
+        }
+        return iv->depth[0] > 0 && iv->depth[1] > 0;
+    }
+    know_stages(r, iv);
+    double s0 = iv->length * iv->rate[0], s1 = iv->length * iv->rate[1];
+    for (size_t q = 0; q < 4; q++) {
+        to->normal[q] = to->slip[q] = 0;
+        to->depth[q] = D0[q] * iv->depth[0] + S0[q] * s0 + D1[q] * iv->depth[1] + S1[q] * s1;
+    }
+    for (size_t i = 0; i <= last; i++) {
+        double normal = iv->normal[i], slip = iv->slip[i];
+        for (size_t q = 0; q < 4; q++)
+            to->normal[q] += r->to_node[i][q] * normal, to->slip[q] += r->to_node[i][q] * slip;
+    }
+    bool is_loaded = true;
+    for (size_t q = 0; q < 3; q++) is_loaded &= to->normal[q] > 0 && to->depth[q] > 0;
+    return is_loaded;
+}
+
+static void at_end(const fw_rule *r, const fw_wear_interval *iv, fw_rule_nodes *to)
+{
+    size_t last = iv->n_stages - 1;
+    to->n = 1, to->u[0] = to->from[0] = to->to[0] = 1, to->lift[0] = 1;
+    to->dt[0] = to->wide[0] = iv->length;
+    to->normal[0] = iv->normal[last], to->slip[0] = iv->slip[last], to->depth[0] = iv->depth[1];
+    for (size_t l = 0; l < r->n_laws; l++) to->along[l][0] = to->wall[l][0] = iv->length;
+}
+
+void fw_rule_apply(fw_rule *r, fw_wear_rule rule, const fw_wear_interval *iv, fw_rule_nodes *to)
+{
+    size_t last = iv->n_stages - 1;
+    to->n = 0;
+    bool slides = false;
+    for (size_t i = 0; i <= last; i++) slides |= iv->slip[i] != 0;
+    if (!slides) return;
+    course c;
+    switch (rule) {
+    case FW_WEAR_NAIVE: at_end(r, iv, to); return;
+    case FW_WEAR_SINGULAR: through_ends(iv, &c); break;
+    case FW_WEAR_HERMITE: through_stages(r, iv, &c); break;
+    }
+    /* The part [a, b] with a force. The signed law k d + c d' is smooth where the clamp at zero has a kink, so its zero is
+     * found on the interpolant: a floe that leaves slides fast on its last millimetres and a step that counts whole nodes
+     * there would be off by some per cent in path. */
+    double a = 0, b = 1, na = iv->normal[0], nb = iv->normal[last];
+    if (!(na > 0) && !(nb > 0)) return;
+    if (!(nb > 0)) b = zero(c.n, c.normal, 0, na, 1, nb), nb = 0;
+    if (!(na > 0)) a = zero(c.n, c.normal, 1, nb, 0, na), na = 0;
+    /* |slip| has a kink where rolling over takes slip through zero */
+    double s0 = iv->slip[0], s1 = iv->slip[last];
+    if ((s0 > 0 && s1 < 0) || (s0 < 0 && s1 > 0)) {
+        double turn = zero(c.n, c.slip, 0, s0, 1, s1);
+        if (turn > a && turn < b) {
+            double nt = value(c.n, c.normal, turn);
+            add(r, iv, &c, a, na, turn, nt, to);
+            a = turn, na = nt;
+        }
+    }
+    add(r, iv, &c, a, na, b, nb, to);
+}
