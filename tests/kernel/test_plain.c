@@ -57,6 +57,7 @@ static outcome run(fw_setup s, fw_scheme scheme, fw_wear_rule rule, double dt, f
     wear.is_open = true;
     while (w->t < duration)
         if (fw_plain_step(p, w, &wear, duration, &m) != FW_OK) fail_msg("%s", m.text);
+    fw_wear_finish(&wear);
     /* rate of eq. (1) at -10 degC; Pa^m m -> MPa^m km */
     double  edge = pow(1e-6, 1.121) * 1e-3 * 0.116 * pow(10, -1.121);
     outcome o = {.floe = w->bodies[0],
