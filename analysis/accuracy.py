@@ -1,5 +1,7 @@
 """Figures of an accuracy study (NAME.accuracy.h5 of `floewear accuracy`): error against CPU time for every method, and how a CPU
 budget is best split between finer steps and more windows."""
+import re
+
 import h5py
 import matplotlib.pyplot as plt
 import numpy as np
@@ -10,16 +12,18 @@ from style import AMBER, BLUE, GREEN, INK, PURPLE, SKY, VERMILION
 
 FILETYPE = "floewear accuracy"
 
-# The lines of the diagram, from the kernel's own to the plainest: (method in the file, what the reader calls it, colour, mark, line).
+# The lines of the diagram, from the kernel's own to the plainest: (pattern of the method in the file, what the reader calls it,
+# colour, mark, line). A study has its wear rules at one order, the built-in one.
 METHODS = (
-    ("events 2, hermite", "events, order 2", VERMILION, "o", "-"),
-    ("events 3, hermite", "events, order 3", AMBER, "s", "-"),
-    ("events 4, hermite", "events, order 4", PURPLE, "D", "-"),
-    ("events 2, naive", "events, order 2, naive wear", VERMILION, "o", ":"),
-    ("every floe, rk4, hermite", "every floe, RK4", GREEN, "^", "--"),
-    ("every floe, verlet, hermite", "every floe, Verlet", SKY, "v", "--"),
-    ("every floe, euler, hermite", "every floe, Euler", BLUE, "P", "--"),
-    ("every floe, euler, naive", "every floe, Euler, naive wear", INK, "X", ":"),
+    (r"events 2, hermite", "events, order 2", VERMILION, "o", "-"),
+    (r"events 3, hermite", "events, order 3", AMBER, "s", "-"),
+    (r"events 4, hermite", "events, order 4", PURPLE, "D", "-"),
+    (r"events (\d), singular", r"events, order \1, singular wear", "#8C6D31", "d", "-."),
+    (r"events (\d), naive", r"events, order \1, naive wear", "#7A3B00", "p", ":"),
+    (r"every floe, rk4, hermite", "every floe, RK4", GREEN, "^", "--"),
+    (r"every floe, verlet, hermite", "every floe, Verlet", SKY, "v", "--"),
+    (r"every floe, euler, hermite", "every floe, Euler", BLUE, "P", "--"),
+    (r"every floe, euler, naive", "every floe, Euler, naive wear", INK, "X", ":"),
 )
 
 
@@ -63,14 +67,16 @@ def draw_work_precision(study):
     error = steps["coupled_rms"] if summary["n_coupled"] > 0 else steps["depth_rms"]
     figure, axes = plt.subplots(figsize=(10.4, 6.4))
     figure.subplots_adjust(left=0.095, right=0.655, bottom=0.105, top=0.835)
-    for method, name, colour, mark, line in METHODS:
-        rows = (steps["method"] == method) & np.isfinite(error) & (error > 0.0)
+    for pattern, name, colour, mark, line in METHODS:
+        found = [re.fullmatch(pattern, method) for method in steps["method"]]
+        rows = np.array([match is not None for match in found]) & np.isfinite(error) & (error > 0.0)
         if not rows.any():
             continue
+        name = found[int(np.flatnonzero(rows)[0])].expand(name)
         slope = line_slope(steps["cpu_s"][rows], error[rows])
         label = name if slope is None else f"{name}\nslope {slope:.1f}".replace("-", "−")
         axes.plot(steps["cpu_s"][rows], error[rows], color=colour, marker=mark, linestyle=line, markersize=6.5,
-                  markeredgecolor="white", markeredgewidth=0.7, label=label, zorder=3 if "events" in method else 2)
+                  markeredgecolor="white", markeredgewidth=0.7, label=label, zorder=3 if "events" in name else 2)
     chosen = int(np.flatnonzero(steps["is_chosen"] > 0)[0])
     axes.plot(steps["cpu_s"][chosen], error[chosen], marker="o", markersize=17, markerfacecolor="none", markeredgecolor=INK,
               markeredgewidth=1.8, linestyle="none", label=f"chosen: {chosen_text(steps, chosen)}", zorder=4)
@@ -86,7 +92,7 @@ def draw_work_precision(study):
         axis.set_minor_formatter(NullFormatter())
     axes.set_xlabel("CPU time of one window")
     axes.set_ylabel("error of its depth (r.m.s. of windows)")
-    figure.legend(loc="center left", bbox_to_anchor=(0.665, 0.47), labelspacing=0.7, title="Hermite wear rule unless named",
+    figure.legend(loc="center left", bbox_to_anchor=(0.665, 0.47), labelspacing=0.6, title="Hermite wear rule unless named",
                   alignment="left")
     figure.text(0.5, 0.945, "Work and precision: what an exact window costs", ha="center", fontsize=15, fontweight="bold")
     figure.text(0.5, 0.902, f"{study.name}: {summary['n_windows']:g} windows of {summary['way']:g} m of ice after "

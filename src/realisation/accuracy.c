@@ -98,3 +98,5 @@ fw_numerics fw_accuracy_built_in(const fw_model *m)
     return (fw_numerics){
         .order = s.method->order, .tolerance = s.tolerance, .first_step = s.first_step, .growth = s.growth};
 }
+
+void fw_accuracy_set_tolerance(fw_numerics *n, double tolerance) { n->tolerance = tolerance; }

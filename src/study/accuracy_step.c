@@ -12,20 +12,23 @@ static const double COUPLED_WITHIN = 0.01;
 
 static const char *const RULES[] = {"hermite", "singular", "naive"}; /* by fw_wear_rule */
 
-/* The event-driven kernel. Growth 3 throughout: 2 costs a tenth more evaluations, 5 lets the error control reject more. */
+/* The event-driven kernel. What a line does not name is the built-in choice's. Growth is not varied: 2 costs a tenth more
+ * evaluations than 3, and 5 lets the error control reject more. */
 static const struct events_line {
-    int          order;
-    double       first_step; /* [1/w] */
+    int          order;      /* 0: the built-in one */
+    double       first_step; /* over the built-in one */
     fw_wear_rule rule;
     double       tolerances[10]; /* from the coarsest; 0 ends */
 } EVENTS[] = {
-    {2, 0.05, FW_WEAR_HERMITE, {1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 1e-6}},
-    {2, 0.20, FW_WEAR_HERMITE, {1e-2, 1e-3, 3e-4, 1e-4, 1e-5}},
-    {3, 0.05, FW_WEAR_HERMITE, {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}},
-    {4, 0.05, FW_WEAR_HERMITE, {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}},
-    {2, 0.05, FW_WEAR_SINGULAR, {1e-2, 1e-3, 1e-4, 1e-5}},
-    {2, 0.05, FW_WEAR_NAIVE, {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}},
+    {2, 1, FW_WEAR_HERMITE, {1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 1e-6}},
+    {3, 1, FW_WEAR_HERMITE, {1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 1e-6}},
+    {4, 1, FW_WEAR_HERMITE, {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}},
+    {0, 4, FW_WEAR_HERMITE, {1e-2, 1e-3, 3e-4, 1e-4, 1e-5}},
+    {0, 1, FW_WEAR_SINGULAR, {1e-2, 1e-3, 1e-4, 1e-5}},
+    {0, 1, FW_WEAR_NAIVE, {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}},
 };
+/* A rung has to be coarser than the reference by this much to say anything. */
+static const double FINER_REFERENCE = 3;
 
 /* Every floe at one step; is_core: also in a small study. */
 static const struct plain_line {
@@ -79,19 +82,26 @@ static fw_status run_setting(fw_accuracy_run *r, fw_accuracy_row *row, fw_msg *m
     return fw_accuracy_append(r, row, m);
 }
 
+static int order_of(const struct events_line *line, const fw_numerics *built_in)
+{
+    return line->order ? line->order : built_in->order;
+}
+
 /* The line's tolerances, and the built-in one where it belongs to this line and lies on none of its rungs. */
 static size_t rungs_of(const fw_accuracy_run *r, const struct events_line *line, double *rungs, double *usual)
 {
+    fw_model    reference = r->model;
     fw_numerics built_in = fw_accuracy_built_in(&r->c->model);
     size_t      n = 0, most = sizeof line->tolerances / sizeof line->tolerances[0];
-    bool        is_own = line->rule == FW_WEAR_HERMITE && line->order == built_in.order &&
-                  fabs(line->first_step / built_in.first_step - 1) < 1e-6;
+    bool is_own = line->rule == FW_WEAR_HERMITE && order_of(line, &built_in) == built_in.order && line->first_step == 1;
+    reference.accuracy = FW_ACCURACY_REFERENCE;
+    double least = FINER_REFERENCE * fw_accuracy_built_in(&reference).tolerance;
     *usual = 0;
     for (size_t k = 0; k < most && line->tolerances[k] > 0; k++) {
         double rung = line->tolerances[k];
         if (is_own && *usual == 0 && fabs(built_in.tolerance / rung - 1) < 1e-6) *usual = rung;
         if (is_own && *usual == 0 && built_in.tolerance > rung) rungs[n++] = *usual = built_in.tolerance;
-        rungs[n++] = rung;
+        if (rung >= least || rung == *usual) rungs[n++] = rung;
     }
     if (is_own && *usual == 0) rungs[n++] = *usual = built_in.tolerance;
     return n;
@@ -99,17 +109,17 @@ static size_t rungs_of(const fw_accuracy_run *r, const struct events_line *line,
 
 static fw_status run_events(fw_accuracy_run *r, const struct events_line *line, fw_msg *m)
 {
-    double rungs[16], usual;
-    size_t n = rungs_of(r, line, rungs, &usual);
+    fw_numerics built_in = fw_accuracy_built_in(&r->c->model);
+    double      rungs[16], usual;
+    size_t      n = rungs_of(r, line, rungs, &usual);
     for (size_t k = 0; k < n; k++) {
-        fw_accuracy_row row = {.group = FW_ACCURACY_STEP, .level = rungs[k]};
-        row.numerics = (fw_numerics){.wear_rule = line->rule,
-                                     .order = line->order,
-                                     .tolerance = rungs[k],
-                                     .first_step = line->first_step,
-                                     .growth = 3};
-        snprintf(row.method, sizeof row.method, "events %d, %s%s", line->order, RULES[line->rule],
-                 line->first_step > 0.1 ? ", 0.2/w" : "");
+        fw_accuracy_row row = {.group = FW_ACCURACY_STEP, .numerics = built_in, .level = rungs[k]};
+        row.numerics.order = order_of(line, &built_in);
+        row.numerics.wear_rule = line->rule;
+        row.numerics.first_step *= line->first_step;
+        fw_accuracy_set_tolerance(&row.numerics, rungs[k]);
+        snprintf(row.method, sizeof row.method, "events %d, %s%s", row.numerics.order, RULES[line->rule],
+                 line->first_step > 1 ? ", long first step" : "");
         snprintf(row.setting, sizeof row.setting, "tolerance %.3g", row.level);
         row.is_default = row.level == usual;
         FW_TRY(run_setting(r, &row, m));
@@ -127,19 +137,6 @@ static fw_status run_plain(fw_accuracy_run *r, const struct plain_line *line, fw
         FW_TRY(run_setting(r, &row, m));
     }
     return FW_OK;
-}
-
-/* The built-in choice for the campaign's accuracy, when it is of an order or first step that no line has. */
-static fw_status run_usual(fw_accuracy_run *r, fw_msg *m)
-{
-    for (size_t i = 0; i < r->out->n_rows; i++)
-        if (r->out->rows[i].is_default) return FW_OK;
-    fw_accuracy_row row = {
-        .group = FW_ACCURACY_STEP, .numerics = fw_accuracy_built_in(&r->c->model), .is_default = true};
-    row.level = row.numerics.tolerance;
-    snprintf(row.method, sizeof row.method, "events %d, built in", row.numerics.order);
-    snprintf(row.setting, sizeof row.setting, "tolerance %.3g", row.level);
-    return run_setting(r, &row, m);
 }
 
 static fw_status run_reference(fw_accuracy_run *r, fw_msg *m)
@@ -178,7 +175,6 @@ fw_status fw_accuracy_step_group(fw_accuracy_run *r, fw_msg *m)
     bool is_small = r->out->sizes.n_steps <= 3;
     FW_TRY(run_reference(r, m));
     for (size_t k = 0; k < sizeof EVENTS / sizeof EVENTS[0]; k++) FW_TRY(run_events(r, &EVENTS[k], m));
-    FW_TRY(run_usual(r, m));
     for (size_t k = 0; k < sizeof PLAIN / sizeof PLAIN[0]; k++)
         if (PLAIN[k].is_core || !is_small) FW_TRY(run_plain(r, &PLAIN[k], m));
     return FW_OK;
