@@ -67,26 +67,52 @@ static double in_the_campaign(const fw_accuracy_run *r, const fw_accuracy_row *r
     return row->group == FW_ACCURACY_WARM_UP ? fmin(1, r->out->mean_window_s / r->c->model.window) : 1;
 }
 
-/* A wider setting than the campaign's is taken only when the campaign's is shown to be off by more than the accuracy: two
- * standard errors beyond it. What lies within the scatter of a few windows is no reason to change a campaign. */
+/* Did the campaign leave this to us? What its file names is its own, and is only remarked upon. */
+static bool is_left_open(const fw_model *m, fw_accuracy_group g)
+{
+    switch (g) {
+    case FW_ACCURACY_RING: {
+        fw_model usual;
+        fw_model_defaults(&usual);
+        return m->n_arcs == usual.n_arcs;
+    }
+    case FW_ACCURACY_STRIP: return !(m->strip_width > 0);
+    case FW_ACCURACY_DOWNSTREAM: return !(m->downstream > 0);
+    default: return m->warm_up < 0;
+    }
+}
+
+static void take(fw_accuracy_run *r, fw_accuracy_row *row)
+{
+    fw_accuracy_choice *choice = &r->out->choice;
+    row->is_chosen = true;
+    if (row->group == FW_ACCURACY_RING) choice->n_arcs = (size_t)row->level;
+    if (row->group == FW_ACCURACY_STRIP) choice->strip_width = row->level;
+    if (row->group == FW_ACCURACY_DOWNSTREAM) choice->downstream = row->level;
+    if (row->group == FW_ACCURACY_WARM_UP) choice->warm_up = row->level / r->out->mean_speed;
+}
+
+/* A wider setting than the default is taken only when that is shown to be off by more than the accuracy: three standard errors
+ * beyond it, from at least six windows (with four, a standard error is itself good to 40 % only). What lies within the scatter of a
+ * few windows is no reason to change a campaign. */
 void fw_accuracy_choose_domain(fw_accuracy_run *r)
 {
     double accuracy = r->c->model.accuracy;
     for (int g = FW_ACCURACY_RING; g <= FW_ACCURACY_WARM_UP; g++) {
         fw_accuracy_row *row = default_row(r, (fw_accuracy_group)g), *end = r->out->rows + r->out->n_rows;
-        double           share = row ? in_the_campaign(r, row) : 1;
         if (!row) continue;
+        double share = in_the_campaign(r, row);
         row->is_chosen = true;
-        if (!(row->depth.n > 1) || !((fabs(row->depth.mean) - 2 * row->depth.error) * share > accuracy)) continue;
+        if (row->depth.n < 6 || !((fabs(row->depth.mean) - 3 * row->depth.error) * share > accuracy)) continue;
+        if (!is_left_open(&r->c->model, row->group)) {
+            snprintf(row->words, sizeof row->words, "off by more than the accuracy; the campaign's own, and left so");
+            continue;
+        }
         for (fw_accuracy_row *wider = row + 1; wider + 1 < end && wider[1].group == row->group; wider++) {
             bool is_last = wider[1].is_reference; /* the widest whose error is known */
             if (fabs(wider->depth.mean) * share > accuracy && !is_last) continue;
-            row->is_chosen = false, wider->is_chosen = true;
-            fw_accuracy_choice *choice = &r->out->choice;
-            if (g == FW_ACCURACY_RING) choice->n_arcs = (size_t)wider->level;
-            if (g == FW_ACCURACY_STRIP) choice->strip_width = wider->level;
-            if (g == FW_ACCURACY_DOWNSTREAM) choice->downstream = wider->level;
-            if (g == FW_ACCURACY_WARM_UP) choice->warm_up = wider->level / r->out->mean_speed;
+            row->is_chosen = false;
+            take(r, wider);
             break;
         }
     }
@@ -96,28 +122,27 @@ void fw_accuracy_choose_domain(fw_accuracy_run *r)
 
 #define SAY(field, ...) snprintf((field), sizeof(field), __VA_ARGS__)
 
-/* Cost of half the error from the slope of error against evaluations, over the chosen method's finer levels. */
+/* Cost of half the error: along the chosen method to the first finer level that has it, on a straight line in logarithms. */
 static void measure_step(const fw_accuracy_run *r, const fw_accuracy_row *chosen, fw_measured_row *to)
 {
-    double steepest = 0, order = 1;
     SAY(to->row, "discretisation");
     if (chosen->coupled.n > 1) {
         to->amount = fmax(fabs(chosen->coupled.mean), chosen->coupled.error), to->error = chosen->coupled.error;
     } else {
         to->amount = chosen->hit_error + chosen->truncation, to->error = NAN;
     }
+    SAY(to->shrinks_with, "accuracy: (tolerance %.2g; energy balance %.2g)", chosen->level, chosen->truncation);
+    SAY(to->halved_by, "no level that was tried");
+    to->cost_factor = NAN;
     for (size_t i = 0; i < r->out->n_rows; i++) {
         const fw_accuracy_row *row = &r->out->rows[i];
-        if (row->group != FW_ACCURACY_STEP || strcmp(row->method, chosen->method) != 0 || !(row->level < chosen->level))
-            continue;
-        double error = log(chosen->coupled.rms / row->coupled.rms);
-        double slope = error / log(row->evaluations / chosen->evaluations);
-        if (!(slope > steepest)) continue; /* also passes over NaN */
-        steepest = slope, order = error / log(chosen->level / row->level);
+        double                 ratio = chosen->coupled.rms / row->coupled.rms;
+        if (row->group != FW_ACCURACY_STEP || strcmp(row->method, chosen->method) != 0 || !(ratio >= 2)) continue;
+        double part = log(2) / log(ratio);
+        to->cost_factor = pow(row->evaluations / chosen->evaluations, part);
+        SAY(to->halved_by, "tolerance %.2g", chosen->level * pow(row->level / chosen->level, part));
+        return;
     }
-    to->cost_factor = steepest > 0 ? pow(2, 1 / steepest) : NAN;
-    SAY(to->shrinks_with, "accuracy: (tolerance %.2g; energy balance %.2g)", chosen->level, chosen->truncation);
-    SAY(to->halved_by, "tolerance %.2g", chosen->level * pow(0.5, 1 / order));
 }
 
 static void measure_domain(const fw_accuracy_run *r, const fw_accuracy_row *row, fw_measured_row *to)
