@@ -13,8 +13,10 @@ static const char *cell(char *text, size_t size, const fw_pairs *p)
 {
     if (p->n == 0 || isnan(p->mean))
         snprintf(text, size, "-");
-    else if (p->mean == 0 && p->rms == 0)
-        snprintf(text, size, "0");
+    else if (fabs(p->mean) < 1e-12 && !(p->error > 1e-12))
+        snprintf(text, size, "0"); /* or what rounding leaves of it */
+    else if (p->mean == 0)
+        snprintf(text, size, "0 +- %.1g %%", 100 * p->error);
     else if (isnan(p->error))
         snprintf(text, size, "%+.2g %%", 100 * p->mean);
     else

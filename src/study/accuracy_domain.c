@@ -58,35 +58,12 @@ static void set_level(fw_accuracy_run *r, fw_model *model, fw_accuracy_group g, 
     }
 }
 
-/* Of the ring what matters is what the measuring points read. A point of one window has a scatter of its own, because hits are
- * few and their patches narrow: that is rms, and it falls with the length of the window. What a coarse ring does to the design
- * value is the difference that stays in the mean over fields: b per point with standard error s, and sqrt(mean b^2 - s^2). */
-static fw_pairs compare_points(const fw_accuracy_run *r, const double *points, const double *reference)
+/* Of the ring what matters is what the measuring points read. */
+static fw_pairs compare_points(const fw_accuracy_run *r, const double *points)
 {
-    fw_pairs out = {.mean = NAN, .error = NAN, .rms = NAN};
-    size_t   n_points = r->c->points.n;
-    double   squares = 0, bias = 0, noise = 0, k = 0;
-    for (size_t p = 0; p < n_points; p++) {
-        double sum = 0, own = 0;
-        k = 0;
-        for (size_t i = 0; i < r->n; i++) {
-            double mean = 0;
-            for (size_t q = 0; q < n_points; q++) mean += reference[i * n_points + q] / (double)n_points;
-            if (!(mean > 0)) continue;
-            double e = (points[i * n_points + p] - reference[i * n_points + p]) / mean;
-            k++, sum += e, own += e * e;
-        }
-        if (k < 2) return out;
-        squares += own / k;
-        double s2 = fmax(0, (own - sum * sum / k) / (k - 1)) / k;
-        bias += sum / k * (sum / k) - s2, noise += s2;
-    }
-    double P = (double)n_points;
-    out.n = (size_t)k;
-    out.mean = sqrt(fmax(0, bias / P));
-    out.error = sqrt(noise / P) * pow(2 / P, 0.25); /* of the root of a mean of P squares that are noise alone */
-    out.rms = sqrt(squares / P);
-    return out;
+    double scale[FW_ACCURACY_WINDOWS], weight[FW_ACCURACY_WINDOWS];
+    for (size_t i = 0; i < r->n; i++) scale[i] = r->reference[i].depth, weight[i] = r->reference[i].hits;
+    return fw_pairs_compare_points(r->n, r->c->points.n, points, r->points_reference, scale, weight);
 }
 
 static void say_in_words(const fw_accuracy_run *r, fw_accuracy_row *row)
@@ -94,9 +71,7 @@ static void say_in_words(const fw_accuracy_run *r, fw_accuracy_row *row)
     if (row->is_reference)
         snprintf(row->words, sizeof row->words, "what the others are compared with");
     else if (row->group == FW_ACCURACY_RING)
-        snprintf(row->words, sizeof row->words,
-                 "of the measuring points; r.m.s.: scatter of one point in one window, %.2g %% over %.3g s",
-                 100 * row->depth.rms * sqrt(r->out->mean_window_s / r->c->model.window), r->c->model.window);
+        fw_accuracy_say_ring(r, row, r->n, r->out->mean_window_s);
     else if (row->group == FW_ACCURACY_WARM_UP)
         snprintf(row->words, sizeof row->words, "other ice in the window; once in the campaign's window: %.1g %%",
                  100 * fabs(row->depth.mean) * r->out->mean_window_s / r->c->model.window);
@@ -130,7 +105,7 @@ static fw_status run_group(fw_accuracy_run *r, const struct group *g, fw_msg *m)
             set_level(r, &model, g->group, levels[k]);
             FW_TRY(fw_trial_run(r->c, &model, r->n, r->windows, r->o->tick, sample, points, m));
         }
-        row.depth = g->group == FW_ACCURACY_RING ? compare_points(r, points, r->points_reference)
+        row.depth = g->group == FW_ACCURACY_RING ? compare_points(r, points)
                                                  : fw_pairs_compare(r->n, sample, r->reference, fw_trial_depth, NULL);
         row.path = fw_pairs_compare(r->n, sample, r->reference, fw_trial_path, NULL);
         row.impulse = fw_pairs_compare(r->n, sample, r->reference, fw_trial_impulse, NULL);

@@ -4,6 +4,8 @@
 
 #include "study/accuracy.h"
 
+enum { FW_ACCURACY_WINDOWS = 64 }; /* at most, of a paired group */
+
 /* The reference level, and the finer of the two levels that tell whether a window stays coupled. */
 #define FW_ACCURACY_REFERENCE 1e-4
 #define FW_ACCURACY_SECOND    1e-3
@@ -30,6 +32,12 @@ void      fw_accuracy_choose_step(fw_accuracy_run *r);
 void      fw_accuracy_choose_domain(fw_accuracy_run *r);
 void      fw_accuracy_measure(fw_accuracy_run *r);
 fw_status fw_accuracy_split_budget(fw_accuracy_run *r, fw_msg *m);
+
+/* What many windows on a fine ring say of coarser ones: replaces the depth errors of the ring group's rows. */
+fw_status fw_accuracy_ring_rows(fw_accuracy_run *r, size_t n, const fw_record *records, fw_msg *m);
+void      fw_accuracy_say_ring(const fw_accuracy_run *r, fw_accuracy_row *row, size_t n_windows, double window_s);
+/* The same records on a ring of fewer arcs; n_arcs divides theirs. */
+fw_status fw_accuracy_coarsen(fw_record *record, size_t n_arcs, fw_msg *m);
 
 fw_status fw_accuracy_append(fw_accuracy_run *r, const fw_accuracy_row *row, fw_msg *m);
 void      fw_accuracy_say(const fw_accuracy_run *r, const char *fmt, ...) __attribute__((format(printf, 2, 3)));

@@ -10,7 +10,7 @@
 #include "study/accuracy_inside.h"
 #include "study/depth.h"
 
-enum { N_SUBSETS = 64 };
+enum { N_SUBSETS = 64, FINE_RING = 1440 };
 
 /* Percentile p of one point from chosen records (picks NULL: all). */
 static fw_status percentile_of(const fw_campaign *c, const double *bearing, size_t n, const fw_record *records,
@@ -89,6 +89,7 @@ static fw_status run_windows(fw_accuracy_run *r, size_t n, fw_record *records, d
 {
     double   cpu = 0, simulated = 0, wanted = 0;
     fw_model model = r->model;
+    if (FINE_RING % model.n_arcs == 0) model.n_arcs = FINE_RING;
     model.window = fmin(r->c->model.window, r->out->sizes.domain_way / r->out->mean_speed);
     r->out->percentile_window_s = model.window;
     for (size_t id = 0; id < n; id++) {
@@ -142,6 +143,9 @@ fw_status fw_accuracy_percentile_group(fw_accuracy_run *r, fw_msg *m)
     fw_record *records;
     FW_TRY(fw_alloc(&records, n, sizeof *records, "records of the accuracy study", m));
     fw_status s = run_windows(r, n, records, &r->out->cpu_s_window, m);
+    if (s == FW_OK) s = fw_accuracy_ring_rows(r, n, records, m);
+    for (size_t i = 0; i < n && s == FW_OK; i++)
+        if (records[i].rings) s = fw_accuracy_coarsen(&records[i], r->model.n_arcs, m);
     if (s == FW_OK) s = add_percentile_rows(r, n, records, m);
     for (size_t i = 0; i < n; i++) fw_record_free(&records[i]);
     free(records);

@@ -18,13 +18,16 @@ typedef struct fw_trial_sample {
     bool   is_ok;         /* the realisation did not fail */
     double depth;         /* sum of the ring's wear load, first law */
     double path, impulse; /* sum of the ring's path; normal impulse on the structure */
-    double evaluations, cpu_s, truncation;
+    double hits, evaluations, cpu_s, truncation;
 } fw_trial_sample;
 
 /* Run every window with the model's numerics, ring and domain. points: (n x c->points.n) loads at the measuring points with
  * the current straight on the first one; may be NULL. tick may be NULL. */
 fw_status fw_trial_run(const fw_campaign *c, const fw_model *model, size_t n, const fw_trial_window *windows,
                        const fw_tick *tick, fw_trial_sample *out, double *points, fw_msg *m);
+
+/* What the measuring points read of a ring with the current straight on the first of them. to: (c->points.n) */
+void fw_trial_read_points(const fw_campaign *c, size_t n_arcs, const double *ring, double *to);
 
 /* What n pairs say: e = (value - reference) over their mean size, so that a decoupled pair counts alike both ways. */
 typedef struct fw_pairs {
@@ -40,6 +43,12 @@ double fw_trial_impulse(const fw_trial_sample *s);
 /* counts: (n) which pairs to look at; NULL: all that did not fail. */
 fw_pairs fw_pairs_compare(size_t n, const fw_trial_sample *a, const fw_trial_sample *reference, fw_trial_value value,
                           const bool *counts);
+/* Loads at measuring points (n x n_points), over scale (n), the windows' means over the ring; weight (n): how much a window knows,
+ * its hits. A point of one window has a scatter of its own, because hits are few and their patches narrow: that is rms. What stays
+ * in the mean over windows is b per point with standard error s: mean = sqrt(mean b^2 - s^2) over points; error is what that
+ * would be if all were noise. NAN below two windows. */
+fw_pairs fw_pairs_compare_points(size_t n, size_t n_points, const double *points, const double *reference,
+                                 const double *scale, const double *weight);
 /* Coupled: depth of two fine levels agrees within limit. Returns their number. */
 size_t   fw_pairs_find_coupled(size_t n, const fw_trial_sample *a, const fw_trial_sample *reference, double limit,
                                bool *is_coupled);
