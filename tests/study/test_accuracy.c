@@ -42,6 +42,38 @@ static void pairs(void **state)
     assert_true(!counts[0] && counts[1] && !counts[2] && !counts[3]);
 }
 
+/* Points that scatter by half of their value, with and without a difference that stays: the scatter is told from the difference. */
+static void points(void **state)
+{
+    (void)state;
+    enum { N = 400, P = 24 };
+    static double a[N * P], b[N * P], scale[N], weight[N];
+    for (int has_bias = 0; has_bias < 2; has_bias++) {
+        fw_random g;
+        fw_random_stream(&g, 3, FW_STREAM_TEST, (uint64_t)has_bias, 0);
+        for (size_t i = 0; i < N; i++) {
+            scale[i] = 2, weight[i] = 1 + (double)(i % 3);
+            for (size_t p = 0; p < P; p++) {
+                double noise = 0.5 * gsl_cdf_ugaussian_Pinv(fw_random_uniform(&g));
+                b[i * P + p] = 2;
+                a[i * P + p] = 2 * (1 + noise + (has_bias ? p % 2 ? 0.08 : -0.08 : 0));
+            }
+        }
+        fw_pairs r = fw_pairs_compare_points(N, P, a, b, scale, weight);
+        print_message("difference %g: %.3g +- %.2g, scatter %.3g\n", has_bias ? 0.08 : 0, r.mean, r.error, r.rms);
+        assert_int_equal(r.n, N);
+        CHECK_RELATIVE(r.rms, sqrt(0.25 + (has_bias ? 0.0064 : 0)), 0.03);
+        CHECK_NEAR(r.mean, has_bias ? 0.08 : 0, has_bias ? 0.012 : 3 * r.error);
+        /* 0.5 / sqrt(400), a tenth more because weights differ, times (2 / 24)^(1/4) */
+        CHECK_NEAR(r.error, 0.0145, 0.002);
+    }
+    fw_pairs same = fw_pairs_compare_points(N, P, a, a, scale, weight);
+    assert_true(same.mean == 0 && same.rms == 0 && same.error == 0);
+    memset(weight, 0, sizeof weight);
+    same = fw_pairs_compare_points(N, P, a, b, scale, weight);
+    assert_true(same.n == 0 && isnan(same.mean));
+}
+
 /* P90 of a lognormal from n windows: sqrt(q (1 - q) / n) sigma / phi(z_q), the asymptotic law of a sample quantile. */
 static void percentile_error(void **state)
 {
@@ -185,8 +217,8 @@ static void stopped(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(hits_are_the_reference), cmocka_unit_test(pairs),
-                                       cmocka_unit_test(percentile_error), cmocka_unit_test(whole_study),
-                                       cmocka_unit_test(stopped)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hits_are_the_reference), cmocka_unit_test(pairs),       cmocka_unit_test(points),
+        cmocka_unit_test(percentile_error),       cmocka_unit_test(whole_study), cmocka_unit_test(stopped)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
