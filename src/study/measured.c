@@ -23,6 +23,8 @@ static const fw_measured_row DOMAIN_ROWS[] = {
     {"warm-up", 2.3e-3, 2.0e-3, NAN, "exposure.warm_up (120 m of ice before; within the scatter of the study)",
      "no level that was tried"},
 };
+/* An accuracy that is this much finer has half of the error: the error goes with accuracy^1.14 from 1 % to 0.1 %. */
+static const double HALVED = 0.54;
 enum { N_STEPS = sizeof STEPS / sizeof STEPS[0], N_DOMAIN = sizeof DOMAIN_ROWS / sizeof DOMAIN_ROWS[0] };
 
 /* Between two accuracies that were measured the larger error of both. */
@@ -40,7 +42,7 @@ static fw_measured_row discretisation(const fw_model *model)
     while (k > 0 && STEPS[k].accuracy < model->accuracy * (1 - 1e-9)) k--;
     row.amount = STEPS[k].amount, row.error = STEPS[k].error, row.cost_factor = STEPS[k].cost_factor;
     snprintf(row.shrinks_with, sizeof row.shrinks_with, "accuracy: (%g %%)", 100 * model->accuracy);
-    snprintf(row.halved_by, sizeof row.halved_by, "accuracy: %.2g %%", 100 * model->accuracy / 4);
+    snprintf(row.halved_by, sizeof row.halved_by, "accuracy: %.2g %%", 100 * model->accuracy * HALVED);
     return row;
 }
 
