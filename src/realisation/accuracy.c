@@ -92,3 +92,15 @@ size_t fw_accuracy_lines(const fw_model *m, double speed, fw_accuracy_line *line
     for (size_t i = 0; i < n; i++) lines[i] = all[i];
     return n;
 }
+
+fw_numerics fw_accuracy_built_in(const fw_model *m)
+{
+    fw_setup s;
+    fw_model bare = *m;
+    bare.numerics = (fw_numerics){.scheme = FW_SCHEME_EVENTS};
+    fw_accuracy_setup(&s, &bare, 1, 1);
+    return (fw_numerics){
+        .order = s.method->order, .tolerance = s.tolerance, .first_step = s.first_step, .growth = s.growth};
+}
+
+void fw_accuracy_set_tolerance(fw_numerics *n, double tolerance) { n->tolerance = tolerance; }

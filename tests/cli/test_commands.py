@@ -85,7 +85,6 @@ class Usage(InFolder):
             self.refuse(2, command + "x", piece=f"did you mean '{command}'?")
         self.refuse(2, "Q7!")
         self.refuse(2, "", piece="no command")
-        self.refuse(2, "accuracy", piece="not in this version")
 
     def test_help(self):
         for words in (["--help"], ["-h"], ["help"]):
