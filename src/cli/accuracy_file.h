@@ -15,7 +15,7 @@
 #include "store/tables.h"
 #include "study/accuracy.h"
 
-enum { FW_CHOICE_SETS = 8, FW_CHOICE_SET_SIZE = 64 };
+enum { FW_CHOICE_SETS = 9, FW_CHOICE_SET_SIZE = 64 };
 
 /* The settings of a choice as they would be given with --set, for key tables and journals alike. */
 typedef struct fw_choice_sets {

@@ -251,6 +251,7 @@ static fw_status read_numerics(const fw_reader *r, fw_values *v, fw_model *model
     }
     model->numerics.order = v->order >= 0 ? (int)v->order : 0;
     model->numerics.tolerance = fmax(0, v->tolerance);
+    model->numerics.wear_tolerance = fmax(0, v->wear_tolerance);
     model->numerics.first_step = fmax(0, v->first_step);
     model->numerics.growth = fmax(0, v->growth);
     return FW_OK;

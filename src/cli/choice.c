@@ -63,7 +63,7 @@ static fw_status read_choice(const char *path, const fw_campaign *bare, found *o
 static bool has_numerics(const fw_model *m)
 {
     const fw_numerics *n = &m->numerics;
-    return n->order != 0 || n->tolerance > 0 || n->first_step > 0 || n->growth > 0;
+    return n->order != 0 || n->tolerance > 0 || n->wear_tolerance > 0 || n->first_step > 0 || n->growth > 0;
 }
 
 /* The campaign again, with the choice's sets after the user's. */

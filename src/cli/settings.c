@@ -148,6 +148,7 @@ static void put_numerics(text *t, const fw_values *v)
 {
     if (v->order >= 0) put_key(t, &fw_table_numerics, "order", v);
     if (v->tolerance >= 0) put_key(t, &fw_table_numerics, "tolerance", v);
+    if (v->wear_tolerance >= 0) put_key(t, &fw_table_numerics, "wear_tolerance", v);
     if (v->first_step >= 0) put_key(t, &fw_table_numerics, "first_step", v);
     if (v->growth >= 0) put_key(t, &fw_table_numerics, "growth", v);
 }

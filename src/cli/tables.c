@@ -163,6 +163,8 @@ static const fw_key NUMERICS[] = {
     AUTO("order", order, "1", "auto", FROM_TO(2, 4), "of the integrator of a contact: 2 (TR-BDF2), 3 or 4"),
     AUTO("tolerance", tolerance, "1", "auto", FROM_TO(1e-12, 0.1),
          "local error of velocity in a sub-step, over the current's speed"),
+    AUTO("wear_tolerance", wear_tolerance, "1", "auto", FROM_TO(1e-12, 0.1),
+         "error of a sub-step's wear, over the wear of its touch so far"),
     AUTO("first_step", first_step, "1", "auto", FROM_TO(1e-4, 10), "after a touch, in 1/w with w = sqrt(stiffness / mass)"),
     AUTO("growth", growth, "1", "auto", FROM_TO(1.1, 100), "largest factor from one sub-step to the next"),
 };

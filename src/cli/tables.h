@@ -25,7 +25,7 @@ typedef struct fw_values {
     double   window, warm_up;
     double   strip_width, downstream;
     uint64_t n_arcs;
-    double   order, tolerance, first_step, growth; /* < 0: auto */
+    double   order, tolerance, wear_tolerance, first_step, growth; /* < 0: auto */
     char     quantity[FW_KEY_TEXT_SIZE];
     double   half_width, confidence;
     uint64_t max_realisations, max_failed;

@@ -264,7 +264,7 @@ fw_status fw_cluster_try(fw_cluster *c, const fw_books *books, double limit, fw_
     const fw_setup *set = books->setup;
     double          left = limit - c->t0;
     if (!(c->h < INFINITY)) c->h = set->first_step / c->omega;
-    c->h = fw_smaller(c->h, set->max_step / c->omega);
+    c->h = fw_smaller(c->h, set->max_step / set->velocity_scale);
     c->h = careful(c, c->h);
     /* No sliver at the end: two halves instead. */
     double h = c->h >= left ? left : c->h > 0.5 * left ? 0.5 * left : c->h, wanted = c->h, tried = h, err;

@@ -292,6 +292,15 @@ static double acceptable_gap(const fw_kernel *k, const fw_candidate *e, double c
     return fw_larger(v / pair_omega(k, e), 1e-12 * k->traffic.world->bodies[e->i].radius);
 }
 
+/* An overlap that the tolerance does not explain. A step that is cut is tried again, and the new one differs by its error times its length;
+ * others may have gone by already. */
+static double too_late(const fw_kernel *k, const fw_cluster *a, const fw_cluster *b, double t, double small)
+{
+    const fw_setup *s = &k->traffic.setup;
+    double          longest = fw_larger(a ? t - a->t0 : 0, b ? t - b->t0 : 0);
+    return fw_larger(1e3 * small, 10 * s->tolerance * s->velocity_scale * longest) + 1e-9;
+}
+
 /* Where the clusters of a candidate's floes stand at the touch. A step that was cut is another step than the one its cubic came from, so
  * the touch moves a little: Newton, each time with both steps tried again. */
 static fw_status locate(fw_kernel *k, int32_t c, fw_cluster *a, fw_cluster *b, double *t, double *closing, bool *is_touch,
@@ -308,7 +317,7 @@ static fw_status locate(fw_kernel *k, int32_t c, fw_cluster *a, fw_cluster *b, d
         double small = acceptable_gap(k, e, *closing), earliest = k->traffic.now;
         if (gap > small && !(*closing > 0)) return FW_OK;
         if (fabs(gap) <= small || (gap <= 0 && (*t <= earliest || !(*closing > 0)))) {
-            if (gap < -1e3 * small && gap < -1e-9) k->traffic.world->ledger.late_touches++;
+            if (-gap > too_late(k, a, b, *t, small)) k->traffic.world->ledger.late_touches++;
             *is_touch = true;
             return FW_OK;
         }

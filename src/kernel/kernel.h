@@ -30,7 +30,7 @@ typedef struct fw_setup {
     double           velocity_scale;  /* [m/s] */
     double           first_step;      /* after a touch, in 1/w */
     double           growth;          /* largest factor from one sub-step to the next */
-    double           max_step;        /* in 1/w of the stiffest closed contact; INFINITY: none */
+    double           max_step;        /* longest step, as way of the current [m]: errors of velocity add up to errors of place */
     double           solver_share;    /* of the tolerance: what the sweeps of a stage may leave */
     double           landing;         /* a touch is located to this share of closing rate / w [m] */
     double           horizon;         /* way of the current between two listings of who may touch whom [m] */

@@ -32,7 +32,7 @@ static fw_measured_row discretisation(const fw_model *model)
 {
     fw_measured_row    row = {.row = "discretisation", .cost_factor = NAN};
     const fw_numerics *own = &model->numerics;
-    if (own->order || own->tolerance > 0 || own->first_step > 0 || own->growth > 0) {
+    if (own->order || own->tolerance > 0 || own->wear_tolerance > 0 || own->first_step > 0 || own->growth > 0) {
         row.amount = row.error = NAN;
         snprintf(row.shrinks_with, sizeof row.shrinks_with,
                  "the campaign names its own numerics; floewear accuracy measures the built-in ones");
