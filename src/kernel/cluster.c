@@ -11,9 +11,9 @@
 #include "base/memory.h"
 
 static const double TURN_AT_END = 0.98; /* share of a step past which a turn of force counts as its end */
-static const double SHORT = 0.01;     /* step in 1/w that no turn of force is looked for in */
-static const double SLIVER = 1e-6;    /* step in 1/w */
-static const double SHORTEST = 1e-9; /* steps below this, in 1/w, are taken whatever their error */
+static const double SHORT = 0.01;       /* step in 1/w that no turn of force is looked for in */
+static const double SLIVER = 1e-6;      /* step in 1/w */
+static const double SHORTEST = 1e-9;    /* steps below this, in 1/w, are taken whatever their error */
 
 void fw_cluster_free(fw_cluster *c)
 {
@@ -72,8 +72,8 @@ static void mark_touched(const fw_books *books, fw_member *e)
     b->is_touched = true;
 }
 
-fw_status fw_cluster_close(fw_cluster *c, const fw_books *books, int32_t a, int32_t other, int32_t candidate, double rate,
-                           fw_msg *m)
+fw_status fw_cluster_close(fw_cluster *c, const fw_books *books, int32_t a, int32_t other, int32_t candidate,
+                           double rate, fw_msg *m)
 {
     const fw_setup *set = books->setup;
     FW_TRY(fw_grow(&c->pairs, &c->pair_capacity, c->n_pairs + 1, sizeof *c->pairs, "clusters", m));
@@ -145,7 +145,8 @@ static double fastest(const fw_member *m, double speed, double inv_h)
     const double *v0 = m->y0 + FW_VX, *v1 = m->y1 + FW_VX;
     double        mx = 3 * (m->y1[FW_X] - m->y0[FW_X]) * inv_h - v0[0] - v1[0],
            my = 3 * (m->y1[FW_Y] - m->y0[FW_Y]) * inv_h - v0[1] - v1[1];
-    double r0 = (v0[0] - speed) * (v0[0] - speed) + v0[1] * v0[1], r1 = (v1[0] - speed) * (v1[0] - speed) + v1[1] * v1[1];
+    double r0 = (v0[0] - speed) * (v0[0] - speed) + v0[1] * v0[1],
+           r1 = (v1[0] - speed) * (v1[0] - speed) + v1[1] * v1[1];
     return sqrt(fw_larger(fw_larger(r0, r1), (mx - speed) * (mx - speed) + my * my));
 }
 
@@ -201,7 +202,8 @@ static double comes_back(const fw_cluster *c, const fw_pair *p, const fw_method 
 {
     double h = c->t1 - c->t0, without = 0, with = 2, f0 = fw_pair_signed_normal(p, 0), f1 = 0;
     for (size_t s = 1; s < me->n_stages; s++)
-        if (p->depth[s] > 0 && fw_pair_signed_normal(p, s) > 0 && me->c[s] < with) with = me->c[s], f1 = fw_pair_signed_normal(p, s);
+        if (p->depth[s] > 0 && fw_pair_signed_normal(p, s) > 0 && me->c[s] < with)
+            with = me->c[s], f1 = fw_pair_signed_normal(p, s);
     for (size_t s = 1; s < me->n_stages; s++)
         if (me->c[s] < with && me->c[s] > without) without = me->c[s], f0 = fw_pair_signed_normal(p, s);
     return with > 1 ? h : h * (without + (with - without) * f0 / (f0 - f1));
