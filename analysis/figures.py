@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Draw the figures of a floewear campaign from its results file.
+"""Draw the figures of a floewear campaign from its results file or its accuracy study.
 
 usage: figures.py RESULTS.h5 [-o FOLDER] [--points 1,6] [--formats svg,png]
 
-Writes NAME-polar and NAME-exceedance (NAME: the results file's) beside the results file or into FOLDER, and prints
-their paths. Needs Debian's python3-h5py and python3-matplotlib. The same results file gives the same bytes of SVG.
+Writes NAME-polar and NAME-exceedance (NAME: the results file's), or of NAME.accuracy.h5 NAME-work-precision and NAME-budget, beside
+the file or into FOLDER, and prints their paths. Needs Debian's python3-h5py and python3-matplotlib. The same results file gives the same bytes of SVG.
 """
 import argparse
 import pathlib
@@ -15,7 +15,8 @@ import matplotlib
 
 matplotlib.use("Agg")
 
-import exceedance  # noqa: E402  (the backend is chosen before pyplot is loaded)
+import accuracy  # noqa: E402  (the backend is chosen before pyplot is loaded)
+import exceedance  # noqa: E402
 import polar  # noqa: E402
 from results import Results  # noqa: E402
 from style import apply_style  # noqa: E402
@@ -40,9 +41,20 @@ def save(figure, folder, stem, formats):
     return paths
 
 
+def campaign_figures(options):
+    results = Results(options.results)
+    points = [int(p) for p in options.points.split(",")] if options.points else None
+    return ("polar", polar.draw(results)), ("exceedance", exceedance.draw(results, points))
+
+
+def accuracy_figures(options):
+    study = accuracy.Study(options.results)
+    return ("work-precision", accuracy.draw_work_precision(study)), ("budget", accuracy.draw_budget(study))
+
+
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
-    parser.add_argument("results", type=pathlib.Path, help="NAME.h5 of floewear run")
+    parser.add_argument("results", type=pathlib.Path, help="NAME.h5 of floewear run, or NAME.accuracy.h5")
     parser.add_argument("-o", "--output", type=pathlib.Path, help="folder for figures (default: beside the results)")
     parser.add_argument("--points", help="points of the exceedance figure, such as 1,6 (default: chosen by depth)")
     parser.add_argument("--formats", default="svg,png", help="comma-separated: svg, png, pdf (default: %(default)s)")
@@ -50,12 +62,11 @@ def main(arguments):
 
     folder = options.output or options.results.parent
     try:
-        results = Results(options.results)
-        folder.mkdir(parents=True, exist_ok=True)
-        points = [int(p) for p in options.points.split(",")] if options.points else None
         apply_style()
-        for kind, figure in (("polar", polar.draw(results)), ("exceedance", exceedance.draw(results, points))):
-            for path in save(figure, folder, f"{options.results.stem}-{kind}", options.formats.split(",")):
+        figures = accuracy_figures(options) if accuracy.is_study(options.results) else campaign_figures(options)
+        folder.mkdir(parents=True, exist_ok=True)
+        for kind, figure in figures:
+            for path in save(figure, folder, f"{options.results.stem.removesuffix('.accuracy')}-{kind}", options.formats.split(",")):
                 print(f"figure: {path}")
     except (OSError, ValueError) as error:
         # h5py does not always say which file.

@@ -21,23 +21,23 @@ class Results:
     def __init__(self, path):
         with h5py.File(path, "r") as file:
             self.path = path
-            self.name = _text(file.attrs.get("name", ""))
+            self.name = read_text(file.attrs.get("name", ""))
             for needed in ("percentiles", "points", "realisations"):
                 if needed not in file:
                     raise ValueError(f"{path}: no /{needed}: no results file of floewear, or of a run without results")
-            self.percentiles = _table(file["percentiles"])
-            self.points = _table(file["points"])
+            self.percentiles = read_table(file["percentiles"])
+            self.points = read_table(file["points"])
             status = file["realisations/status"][...]
             self.n = len(status)
             self.n_failed = int(np.count_nonzero(status != 0))
             window = file["realisations/window"][...] if "window" in file["realisations"] else np.zeros(0)
             self.window = float(np.nanmax(window)) if window.size else 0.0  # a failed run has none
-            sets = [_text(s) for s in np.atleast_1d(file.attrs.get("sets", []))]
-            campaign = _text(file.attrs.get("campaign", ""))
+            sets = [read_text(s) for s in np.atleast_1d(file.attrs.get("sets", []))]
+            campaign = read_text(file.attrs.get("campaign", ""))
             self.directions = _directions(_law(campaign, sets, "current", "direction"))
             self.temperatures = _temperatures(_law(campaign, sets, "ice", "temperature"))
             load = file["realisations/wear_load"]
-            self.law = _text(np.atleast_1d(load.attrs["laws"])[0])
+            self.law = read_text(np.atleast_1d(load.attrs["laws"])[0])
             self.load = load[:, 0, :]
             if not self.percentiles["point"].size:
                 raise ValueError(f"{path}: /percentiles is empty: the run has no results yet")
@@ -103,10 +103,10 @@ def _temperatures(law):
     return (ends[0], ends[-1]) if ends[0] > 0.0 and len(ends) <= 2 else None
 
 
-def _text(value):
+def read_text(value):
     return value.decode() if isinstance(value, bytes) else str(value)
 
 
-def _table(group):
+def read_table(group):
     return {name: dataset.asstr()[...] if h5py.check_string_dtype(dataset.dtype) else dataset[...]
             for name, dataset in group.items()}

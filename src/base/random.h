@@ -13,6 +13,7 @@ typedef enum fw_purpose {
     FW_STREAM_FIELD      = 2, /* id = realisation, part = tile */
     FW_STREAM_SERVICE    = 3, /* id = life number */
     FW_STREAM_SECTIONING = 4, /* interval methods that draw */
+    FW_STREAM_SUBSETS    = 5, /* accuracy study: which records a sub-set takes */
     FW_STREAM_TEST       = 99
 } fw_purpose;
 

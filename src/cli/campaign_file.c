@@ -238,6 +238,25 @@ static fw_status read_service(const fw_reader *r, fw_values *v, fw_campaign *c)
     return FW_OK;
 }
 
+/* ---- numerics --------------------------------------------------------------------------------------------------- */
+
+/* What is auto stays 0: chosen by the accuracy. */
+static fw_status read_numerics(const fw_reader *r, fw_values *v, fw_model *model)
+{
+    const fw_node *map = fw_yaml_get(r->root, "numerics");
+
+    FW_TRY(fw_read_section(r, &fw_table_numerics, "numerics", map, v, NULL));
+    if (v->order >= 0 && v->order != floor(v->order)) {
+        return fw_yaml_fail(fw_yaml_get(map, "order"), r->m, "numerics.order = %g: wanted 2, 3 or 4", v->order);
+    }
+    model->numerics.order = v->order >= 0 ? (int)v->order : 0;
+    model->numerics.tolerance = fmax(0, v->tolerance);
+    model->numerics.wear_tolerance = fmax(0, v->wear_tolerance);
+    model->numerics.first_step = fmax(0, v->first_step);
+    model->numerics.growth = fmax(0, v->growth);
+    return FW_OK;
+}
+
 /* ---- the whole -------------------------------------------------------------------------------------------------- */
 
 static fw_status read_campaign(const fw_reader *r, const char *file, int64_t seed, fw_campaign *c)
@@ -262,6 +281,7 @@ static fw_status read_campaign(const fw_reader *r, const char *file, int64_t see
     FW_TRY(fw_read_section(r, &fw_table_exposure, "exposure", fw_yaml_get(r->root, "exposure"), &v, NULL));
     FW_TRY(fw_read_section(r, &fw_table_field, "field", fw_yaml_get(r->root, "field"), &v, NULL));
     FW_TRY(fw_file_read_model(r, &v, &c->model));
+    FW_TRY(read_numerics(r, &v, &c->model));
     c->model.window = v.window;
     c->model.warm_up = v.warm_up;
     c->model.strip_width = v.strip_width;
@@ -292,6 +312,17 @@ static void directory_of(const char *path, char *out, size_t size)
     out[n] = '\0';
 }
 
+/* Kept with the text, so that both together give the campaign again. */
+static fw_status keep_sets(fw_campaign *c, size_t n_sets, const char *const *sets, fw_msg *m)
+{
+    FW_TRY(fw_alloc(&c->sets, n_sets, sizeof *c->sets, "--set", m));
+    for (; c->n_sets < n_sets; c->n_sets++) {
+        c->sets[c->n_sets] = fw_strdup(sets[c->n_sets]);
+        FW_CHECK(c->sets[c->n_sets], m, FW_E_NOMEM, "out of memory: --set");
+    }
+    return FW_OK;
+}
+
 fw_status fw_config_campaign_text(fw_campaign *out, const char *name, const char *text, size_t n_bytes, size_t n_sets,
                                   const char *const *sets, int64_t seed, fw_msg *m)
 {
@@ -309,7 +340,8 @@ fw_status fw_config_campaign_text(fw_campaign *out, const char *name, const char
         status = fw_alloc(&out->text, n_bytes + 1, 1, "campaign text", m);
         if (status == FW_OK) {
             memcpy(out->text, text, n_bytes);
-            status = read_campaign(&r, name, seed, out);
+            status = keep_sets(out, n_sets, sets, m);
+            if (status == FW_OK) status = read_campaign(&r, name, seed, out);
         }
     }
     fw_yaml_free(&yaml);

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "cli/choice.h"
 #include "cli/commands.h"
 #include "cli/config.h"
 #include "cli/json.h"
@@ -13,10 +14,10 @@
 #include "floewear/campaign.h"
 #include "realisation/accuracy.h"
 
-enum { MAX_SETS = 64, KEY_SET = 1000, KEY_JSON, KEY_PILOT, KEY_SEED };
+enum { MAX_SETS = 64, KEY_SET = 1000, KEY_JSON, KEY_PILOT, KEY_SEED, KEY_ACCURACY };
 
 typedef struct arguments {
-    const char *campaign;
+    const char *campaign, *accuracy_from;
     const char *sets[MAX_SETS];
     size_t      n_sets;
     bool        is_json;
@@ -34,6 +35,7 @@ static error_t parse(int key, char *arg, struct argp_state *state)
         a->sets[a->n_sets++] = arg;
         return 0;
     case KEY_JSON: a->is_json = true; return 0;
+    case KEY_ACCURACY: a->accuracy_from = arg; return 0;
     case KEY_PILOT:
         a->pilot = strtol(arg, &end, 10);
         if (*end || end == arg || a->pilot < 0 || a->pilot > 10000)
@@ -54,6 +56,7 @@ static error_t parse(int key, char *arg, struct argp_state *state)
 
 static const struct argp_option OPTIONS[] = {
     {"pilot", KEY_PILOT, "N", 0, "realisations of the pilot (default 16; 0: none)", 0},
+    {"accuracy-from", KEY_ACCURACY, "FILE", 0, "numerics chosen by floewear accuracy (default: NAME.accuracy.h5, if it is there)", 0},
     {"set", KEY_SET, "KEY=VALUE", 0, "override a key by its dotted path", 0},
     {"seed", KEY_SEED, "N", 0, "override the seed", 0},
     {"json", KEY_JSON, NULL, 0, "print JSON", 0},
@@ -143,7 +146,7 @@ static forecast predict(const fw_campaign *c, const pilot *p)
     return f;
 }
 
-static void print_json(const fw_campaign *c, const pilot *p, const forecast *f, double speed)
+static void print_json(const fw_campaign *c, const fw_choice *choice, const pilot *p, const forecast *f, double speed)
 {
     fw_json          j = fw_json_onto(stdout);
     const fw_effect *e;
@@ -164,6 +167,7 @@ static void print_json(const fw_campaign *c, const pilot *p, const forecast *f, 
     fw_json_end(&j);
     fw_accuracy_line lines[16];
     size_t           n_lines = fw_accuracy_lines(&c->model, speed, lines, 16);
+    fw_json_key(&j, "numerics"), fw_json_string(&j, choice->line);
     fw_json_key(&j, "accuracy");
     fw_json_begin_array(&j);
     for (size_t i = 0; i < n_lines; i++) {
@@ -197,7 +201,7 @@ static void print_json(const fw_campaign *c, const pilot *p, const forecast *f, 
     fw_json_end(&j);
 }
 
-static void print_text(const fw_campaign *c, const pilot *p, const forecast *f, double speed)
+static void print_text(const fw_campaign *c, const fw_choice *choice, const pilot *p, const forecast *f, double speed)
 {
     const fw_effect *e;
     size_t           n = fw_effects_list(&e);
@@ -209,7 +213,7 @@ static void print_text(const fw_campaign *c, const pilot *p, const forecast *f, 
     }
     fw_accuracy_line lines[16];
     size_t           n_lines = fw_accuracy_lines(&c->model, speed, lines, 16);
-    printf("\naccuracy %g %% of a window's depth, at %.3g m/s\n", 100 * c->model.accuracy, speed);
+    printf("\naccuracy %g %% of a window's depth, at %.3g m/s; %s\n", 100 * c->model.accuracy, speed, choice->line);
     for (size_t i = 0; i < n_lines; i++)
         printf("  %-13s %10.4g %-4s  %s\n", lines[i].name, lines[i].value, lines[i].unit, lines[i].why);
     if (p->n) {
@@ -239,7 +243,10 @@ int fw_cmd_plan(int argc, char **argv)
     fw_campaign c = {0};
     fw_msg      m = {""};
     pilot       p = {0};
-    fw_status   s = fw_config_campaign(&c, a.campaign, a.n_sets, a.sets, a.seed, &m);
+    fw_choice   choice;
+    fw_choice_wanted wanted = {
+        .campaign = a.campaign, .n_sets = a.n_sets, .sets = a.sets, .seed = a.seed, .from = a.accuracy_from};
+    fw_status s = fw_choice_campaign(&c, &wanted, &choice, &m);
     if (s == FW_OK) s = run_pilot(&c, (size_t)a.pilot, &p, &m);
     if (s == FW_OK) {
         fw_scenario sc;
@@ -247,9 +254,9 @@ int fw_cmd_plan(int argc, char **argv)
         forecast f = predict(&c, &p);
         double   speed = p.n ? p.mean_speed : sc.speed;
         if (a.is_json)
-            print_json(&c, &p, &f, speed);
+            print_json(&c, &choice, &p, &f, speed);
         else
-            print_text(&c, &p, &f, speed);
+            print_text(&c, &choice, &p, &f, speed);
         s = fw_output_finish(&m);
     }
     if (s != FW_OK) fprintf(stderr, "floewear plan: %s\n", m.text[0] ? m.text : fw_status_sentence(s));

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "cli/accuracy_file.h"
 #include "cli/commands.h"
 #include "cli/config.h"
 #include "cli/output.h"
@@ -118,13 +119,27 @@ static fw_status find_law(const fw_campaign *c, const char *name, size_t *law, f
     return fw_fail(m, FW_E_INPUT, "--law %s: the campaign has no such abrasion law; it has %s", name, known);
 }
 
+/* Files of earlier versions have no such table: what this version knows stands in for it. */
+static fw_status read_measured(const char *path, const fw_campaign *c, fw_measured *out, fw_msg *m)
+{
+    fw_tables *t;
+    fw_measured_default(out, &c->model);
+    FW_TRY(fw_tables_open(&t, path, NULL, m));
+    fw_status s = fw_tables_has(t, "accuracy") ? fw_accuracy_file_read_measured(t, out, m) : FW_OK;
+    fw_tables_close(t);
+    return s;
+}
+
 static fw_status report_campaign(const report_arguments *a, const fw_campaign *c, fw_results *r, fw_msg *m)
 {
     fw_record_source  records = fw_results_records(r);
     fw_answer_source  source = {.n = records.n, .read = records.read, .self = records.self};
     fw_answer_options o = {
         .n_percentiles = a->n_percentiles, .percentiles = a->percentiles, .n_points = a->n_points, .points = a->points};
-    fw_answer answer;
+    fw_answer   answer;
+    fw_measured measured;
+    FW_TRY(read_measured(a->path, c, &measured, m));
+    o.measured = &measured;
     FW_TRY(find_law(c, a->law, &o.law, m));
     FW_TRY(fw_answer_make(&answer, c, &source, &o, m));
     if (a->is_json) {

@@ -12,6 +12,7 @@
 #include <time.h>
 
 #include "base/memory.h"
+#include "cli/choice.h"
 #include "cli/commands.h"
 #include "cli/config.h"
 #include "cli/output.h"
@@ -21,7 +22,7 @@
 #include "cli/run_files.h"
 
 typedef struct run_arguments {
-    const char  *campaign, *out;
+    const char  *campaign, *out, *accuracy_from;
     const char **sets; /* (n_sets) */
     size_t       n_sets, sets_capacity;
     int64_t      seed;    /* < 0: the file's */
@@ -30,7 +31,7 @@ typedef struct run_arguments {
     bool         is_fresh, is_quiet, is_json;
 } run_arguments;
 
-enum { KEY_SET = 256, KEY_SEED, KEY_BUDGET, KEY_FRESH, KEY_JSON, KEY_ONLY_ID };
+enum { KEY_SET = 256, KEY_SEED, KEY_BUDGET, KEY_FRESH, KEY_JSON, KEY_ONLY_ID, KEY_ACCURACY };
 
 static const struct argp_option run_options[] = {
     {"output", 'o', "OUT", 0, "write OUT.journal and OUT.h5 (default: the campaign's name, in the current folder)", 0},
@@ -38,6 +39,7 @@ static const struct argp_option run_options[] = {
     {"seed", KEY_SEED, "N", 0, "instead of the file's seed", 0},
     {"time-budget", KEY_BUDGET, "TIME", 0, "stop in good order after this much wall-clock time, as in 2h or 90min", 0},
     {"fresh", KEY_FRESH, NULL, 0, "start anew; an old journal is kept as OUT.journal.old", 0},
+    {"accuracy-from", KEY_ACCURACY, "FILE", 0, "numerics chosen by floewear accuracy (default: OUT.accuracy.h5, if it is there)", 0},
     {"quiet", 'q', NULL, 0, "no progress on stderr", 0},
     {"json", KEY_JSON, NULL, 0, "results as JSON instead of tables", 0},
     {"only-id", KEY_ONLY_ID, "N", 0, "run realisation N alone, print its record, write nothing", 0},
@@ -65,6 +67,7 @@ static error_t run_parse(int key, char *text, struct argp_state *state)
     switch (key) {
     case 'o': a->out = text; return 0;
     case 'q': a->is_quiet = true; return 0;
+    case KEY_ACCURACY: a->accuracy_from = text; return 0;
     case KEY_FRESH: a->is_fresh = true; return 0;
     case KEY_JSON: a->is_json = true; return 0;
     case KEY_SET:
@@ -108,6 +111,7 @@ static error_t run_parse(int key, char *text, struct argp_state *state)
 typedef struct run_session {
     const fw_campaign *campaign;
     fw_run_files       files;
+    fw_choice          choice; /* of numerics */
     fw_progress_line   line;
     double             estimated, estimate_cost; /* when the last live estimate was made, what it took [s] */
     uint64_t           estimated_n;
@@ -214,7 +218,8 @@ static fw_status run_answer(run_session *s, uint64_t n, const run_arguments *a, 
     static const double percentiles[] = {50, 90, 95, 99};
     fw_answer_options   options       = {.n_percentiles = sizeof percentiles / sizeof percentiles[0],
                                          .percentiles   = percentiles,
-                                         .confidence    = s->campaign->precision.confidence};
+                                         .confidence    = s->campaign->precision.confidence,
+                                         .measured      = &s->choice.measured};
     fw_answer        answer;
     fw_status        status;
 
@@ -256,6 +261,7 @@ static fw_status run_campaign(run_session *s, const run_arguments *a, fw_msg *m)
                               .only_id       = -1};
 
     if (c->precision.half_width > 0.0) run.stop = (fw_stop_rule){.look = run_look, .self = s};
+    if (!a->is_quiet) fprintf(stderr, "%s\n", s->choice.line);
     fw_progress_line_start(&s->line, stderr, a->is_quiet);
     if (s->files.n_have && !a->is_quiet) {
         fprintf(stderr, "%s: going on from %zu of %" PRIu64 " realisations\n", s->files.journal_path, s->files.n_have,
@@ -327,14 +333,26 @@ static fw_status run_only(const fw_campaign *c, const run_arguments *a, fw_msg *
 
 /* --- all ranks ---------------------------------------------------------------------------------------------------- */
 
+static fw_choice_wanted run_wanted(const run_arguments *a)
+{
+    return (fw_choice_wanted){.campaign = a->campaign,
+                              .n_sets   = a->n_sets,
+                              .sets     = a->sets,
+                              .seed     = a->seed,
+                              .from     = a->accuracy_from,
+                              .out      = a->out};
+}
+
 static fw_status run_lead(const run_arguments *a, fw_msg *m)
 {
     fw_campaign c;
     run_session s = {.campaign = &c};
     fw_msg      later = {.text = ""};
     fw_status   status, closed;
+    fw_choice_wanted wanted;
 
-    status = fw_config_campaign(&c, a->campaign, a->n_sets, a->sets, a->seed, m);
+    wanted = run_wanted(a);
+    status = fw_choice_campaign(&c, &wanted, &s.choice, m);
     if (status != FW_OK) {
         fw_campaign_cancel();
         return status;
@@ -365,8 +383,11 @@ static void run_follow(const run_arguments *a)
 {
     fw_campaign c;
     fw_msg      m = {.text = ""};
+    fw_choice   choice;
+    fw_choice_wanted wanted = run_wanted(a);
 
-    if (fw_config_campaign(&c, a->campaign, a->n_sets, a->sets, a->seed, &m) == FW_OK) {
+    /* the same file as rank 0 reads; a rank that does not see it has another campaign, and rank 0 says so */
+    if (fw_choice_campaign(&c, &wanted, &choice, &m) == FW_OK) {
         fw_campaign_serve(&c, &m);
         fw_campaign_free(&c);
     } else {

@@ -5,6 +5,7 @@
 
 int fw_cmd_run(int argc, char **argv);
 int fw_cmd_plan(int argc, char **argv);
+int fw_cmd_accuracy(int argc, char **argv);
 int fw_cmd_scene(int argc, char **argv);
 int fw_cmd_report(int argc, char **argv);
 int fw_cmd_status(int argc, char **argv);

@@ -18,20 +18,11 @@ typedef struct command {
     const char *meaning;
 } command;
 
-static int main_accuracy(int argc, char **argv)
-{
-    (void)argc;
-    (void)argv;
-    fprintf(stderr, "floewear accuracy: measuring error against cost is not in this version; "
-                    "set `accuracy:` in the campaign file (1 %% unless it says otherwise)\n");
-    return fw_status_exit_code(FW_E_UNSUPPORTED);
-}
-
 static const command main_commands[] = {
     {"run", fw_cmd_run, "floewear run", "run a campaign, alone or under mpirun; run again to go on"},
     {"plan", fw_cmd_plan, "floewear plan", "effects, accuracy settings, a pilot, predicted cost; no results"},
     {"scene", fw_cmd_scene, "floewear scene", "given floes, no sampling: the deterministic kernel alone"},
-    {"accuracy", main_accuracy, "floewear accuracy", "error against cost, measured (not in this version)"},
+    {"accuracy", fw_cmd_accuracy, "floewear accuracy", "error against cost, measured on the campaign; run and plan use its choice"},
     {"report", fw_cmd_report, "floewear report", "percentiles with intervals, service life, ledgers of a results file"},
     {"status", fw_cmd_status, "floewear status", "progress of a running or stopped campaign, from outside"},
     {"keys", fw_cmd_keys, "floewear keys", "every key of campaign and scene files"},

@@ -1,4 +1,5 @@
-/* NAME.h5 of an answer: /percentiles, /points, /service_life and /ledger are what the report prints. */
+/* NAME.h5 of an answer: /percentiles, /points, /service_life and /ledger are what the report prints, /accuracy what its
+ * numerical rows were made from. */
 #ifndef FW_CLI_REPORT_TABLES_H5_H
 #define FW_CLI_REPORT_TABLES_H5_H
 

@@ -143,6 +143,16 @@ static void put_effects(text *t, const fw_model *m)
     put(t, "\n");
 }
 
+/* Only what is given: a campaign without this section is the campaign that it was before there was one. */
+static void put_numerics(text *t, const fw_values *v)
+{
+    if (v->order >= 0) put_key(t, &fw_table_numerics, "order", v);
+    if (v->tolerance >= 0) put_key(t, &fw_table_numerics, "tolerance", v);
+    if (v->wear_tolerance >= 0) put_key(t, &fw_table_numerics, "wear_tolerance", v);
+    if (v->first_step >= 0) put_key(t, &fw_table_numerics, "first_step", v);
+    if (v->growth >= 0) put_key(t, &fw_table_numerics, "growth", v);
+}
+
 fw_status fw_settings_make(fw_campaign *c, const fw_values *v, fw_msg *m)
 {
     text t = {NULL, 0, 0, FW_OK, m};
@@ -167,6 +177,7 @@ fw_status fw_settings_make(fw_campaign *c, const fw_values *v, fw_msg *m)
     put_keys(&t, &fw_table_exposure, v);
     put_keys(&t, &fw_table_field, v);
     put_keys(&t, &fw_table_ring, v);
+    put_numerics(&t, v);
     if (t.status != FW_OK) {
         free(t.bytes);
         return t.status;

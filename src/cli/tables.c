@@ -82,6 +82,7 @@ static const fw_key CAMPAIGN[] = {
     SHAPED("field", "", "map", "extent of the simulated ice"),
     SHAPED("ring", "", "map", "resolution round the structure"),
     NUMBER("accuracy", accuracy, "1", "1 %", FROM_TO(1e-4, 0.1), "wanted discretisation error of a window's depth"),
+    SHAPED("numerics", "", "map", "how a window is computed; left out: accuracy chooses"),
     SHAPED("precision", "", "map", "when there are enough realisations"),
     SHAPED("service", "", "map", "service life; left out: none is worked out"),
     COUNT("seed", seed, "1", FROM_TO(0, 1e18), "of every random number"),
@@ -157,6 +158,17 @@ static const fw_key FIELD[] = {
     AUTO("downstream", downstream, "m", "auto", ABOVE_TO(0, 1e5), "floes are forgotten this far behind the structure"),
 };
 SECTION(fw_table_field, "field", "extent of the simulated ice", FIELD);
+
+static const fw_key NUMERICS[] = {
+    AUTO("order", order, "1", "auto", FROM_TO(2, 4), "of the integrator of a contact: 2 (TR-BDF2), 3 or 4"),
+    AUTO("tolerance", tolerance, "1", "auto", FROM_TO(1e-12, 0.1),
+         "local error of velocity in a sub-step, over the current's speed"),
+    AUTO("wear_tolerance", wear_tolerance, "1", "auto", FROM_TO(1e-12, 0.1),
+         "error of a sub-step's wear, over the wear of its touch so far"),
+    AUTO("first_step", first_step, "1", "auto", FROM_TO(1e-4, 10), "after a touch, in 1/w with w = sqrt(stiffness / mass)"),
+    AUTO("growth", growth, "1", "auto", FROM_TO(1.1, 100), "largest factor from one sub-step to the next"),
+};
+SECTION(fw_table_numerics, "numerics", "how a window is computed, instead of what accuracy and its study choose", NUMERICS);
 
 static const fw_key PRECISION[] = {
     {"quantity", FW_KEY_TEXT, AT(quantity), NULL, "P90", ANY, NULL,
@@ -246,6 +258,7 @@ const fw_table_listed fw_tables[] = {
     {"campaign", &fw_table_exposure},
     {"campaign", &fw_table_field},
     {"both", &fw_table_ring},
+    {"campaign", &fw_table_numerics},
     {"campaign", &fw_table_precision},
     {"campaign", &fw_table_service},
     {"scene", &fw_table_scene},

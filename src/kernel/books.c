@@ -99,7 +99,8 @@ static void end_where_it_lets_go(const fw_cluster *c, const fw_pair *p, const fw
 {
     double h = iv->length, gone = fw_cluster_lets_go(c, p, me);
     double u = gone / h, d1 = iv->depth[1] - iv->depth[0], r0 = -iv->rate[0], r1 = -iv->rate[1];
-    double c2 = 3 * d1 + h * (2 * r0 + r1), c3 = -h * (r0 + r1) - 2 * d1; /* depth as a cubic, its slope is the closing rate */
+    double c2 = 3 * d1 + h * (2 * r0 + r1),
+           c3 = -h * (r0 + r1) - 2 * d1; /* depth as a cubic, its slope is the closing rate */
     size_t s = 1;
     while (s + 1 < iv->n_stages && iv->at[s] < u) s++; /* any stage after the release tells where slip goes */
     double slip = iv->slip[0] + (iv->slip[s] - iv->slip[0]) * u / iv->at[s];

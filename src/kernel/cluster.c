@@ -11,7 +11,9 @@
 #include "base/memory.h"
 
 static const double TURN_AT_END = 0.98; /* share of a step past which a turn of force counts as its end */
-static const double SHORTEST = 1e-9; /* steps below this, in 1/w, are taken whatever their error */
+static const double SHORT = 0.01;       /* step in 1/w that no turn of force is looked for in */
+static const double SLIVER = 1e-6;      /* step in 1/w */
+static const double SHORTEST = 1e-9;    /* steps below this, in 1/w, are taken whatever their error */
 
 void fw_cluster_free(fw_cluster *c)
 {
@@ -70,8 +72,8 @@ static void mark_touched(const fw_books *books, fw_member *e)
     b->is_touched = true;
 }
 
-fw_status fw_cluster_close(fw_cluster *c, const fw_books *books, int32_t a, int32_t other, int32_t candidate, double rate,
-                           fw_msg *m)
+fw_status fw_cluster_close(fw_cluster *c, const fw_books *books, int32_t a, int32_t other, int32_t candidate,
+                           double rate, fw_msg *m)
 {
     const fw_setup *set = books->setup;
     FW_TRY(fw_grow(&c->pairs, &c->pair_capacity, c->n_pairs + 1, sizeof *c->pairs, "clusters", m));
@@ -142,7 +144,8 @@ double fw_member_fastest(const fw_member *m, double speed, double inv_h)
     const double *v0 = m->y0 + FW_VX, *v1 = m->y1 + FW_VX;
     double        mx = 3 * (m->y1[FW_X] - m->y0[FW_X]) * inv_h - v0[0] - v1[0],
            my = 3 * (m->y1[FW_Y] - m->y0[FW_Y]) * inv_h - v0[1] - v1[1];
-    double r0 = (v0[0] - speed) * (v0[0] - speed) + v0[1] * v0[1], r1 = (v1[0] - speed) * (v1[0] - speed) + v1[1] * v1[1];
+    double r0 = (v0[0] - speed) * (v0[0] - speed) + v0[1] * v0[1],
+           r1 = (v1[0] - speed) * (v1[0] - speed) + v1[1] * v1[1];
     return sqrt(fw_larger(fw_larger(r0, r1), (mx - speed) * (mx - speed) + my * my));
 }
 
@@ -198,7 +201,8 @@ static double comes_back(const fw_cluster *c, const fw_pair *p, const fw_method 
 {
     double h = c->t1 - c->t0, without = 0, with = 2, f0 = fw_pair_signed_normal(p, 0), f1 = 0;
     for (size_t s = 1; s < me->n_stages; s++)
-        if (p->depth[s] > 0 && fw_pair_signed_normal(p, s) > 0 && me->c[s] < with) with = me->c[s], f1 = fw_pair_signed_normal(p, s);
+        if (p->depth[s] > 0 && fw_pair_signed_normal(p, s) > 0 && me->c[s] < with)
+            with = me->c[s], f1 = fw_pair_signed_normal(p, s);
     for (size_t s = 1; s < me->n_stages; s++)
         if (me->c[s] < with && me->c[s] > without) without = me->c[s], f0 = fw_pair_signed_normal(p, s);
     return with > 1 ? h : h * (without + (with - without) * f0 / (f0 - f1));
@@ -220,8 +224,8 @@ static double turn_of_force(const fw_cluster *c, const fw_setup *set, bool *is_b
         else if (to < -0.2 * from && from > 0.1 * set->tolerance * p->law.c * set->velocity_scale)
             /* A little past it, so that the contact does open there: at 1.02 the remnant took a step of its own in half of all hits. */
             at = 1.2 * fw_cluster_lets_go(c, p, set->method);
-        if (at * p->law.omega <= SHORTEST) continue; /* the step's start itself: force is back already */
-        if (at < first) first = at, *is_back = from <= 0;
+        /* at once: it is back already */
+        if (at < first && at * p->law.omega > SHORT) first = at, *is_back = from <= 0;
     }
     return first;
 }
@@ -262,7 +266,7 @@ fw_status fw_cluster_try(fw_cluster *c, const fw_books *books, double limit, fw_
     const fw_setup *set = books->setup;
     double          left = limit - c->t0;
     if (!(c->h < INFINITY)) c->h = set->first_step / c->omega;
-    c->h = fw_smaller(c->h, set->max_step / c->omega);
+    c->h = fw_smaller(c->h, set->max_step / set->velocity_scale);
     c->h = careful(c, c->h);
     /* No sliver at the end: two halves instead. */
     double h = c->h >= left ? left : c->h > 0.5 * left ? 0.5 * left : c->h, wanted = c->h, tried = h, err;
@@ -270,7 +274,7 @@ fw_status fw_cluster_try(fw_cluster *c, const fw_books *books, double limit, fw_
     if (h < tried) wanted = h;
     c->t1 = c->t0 + h;
     bool   is_back = false;
-    double turn = h * c->omega > 0.01 ? turn_of_force(c, set, &is_back) : h;
+    double turn = h * c->omega > SHORT ? turn_of_force(c, set, &is_back) : h;
     if (turn < TURN_AT_END * h) {
         h = turn;
         FW_TRY(attempt_until_good(c, books, &h, &err, msg));
@@ -292,6 +296,16 @@ fw_status fw_cluster_land(fw_cluster *c, const fw_books *books, double t, fw_msg
     return FW_OK;
 }
 
+/* A contact that is taken out while the dashpot still says a force: the members' accelerations go on without it. */
+static void take_force_back(fw_cluster *c, const fw_pair *p, size_t last)
+{
+    fw_member *a = &c->members[p->a], *b = p->b == FW_WALL ? &c->wall : &c->members[p->b];
+    double     n = p->normal[last], f = p->friction[last];
+    double     fx = n * p->dir[last][0] - f * p->dir[last][1], fy = n * p->dir[last][1] + f * p->dir[last][0];
+    a->k[0][FW_VX] -= fx * a->own_inv_mass, a->k[0][FW_VY] -= fy * a->own_inv_mass, a->k[0][FW_SPIN] += f * a->turn;
+    b->k[0][FW_VX] += fx * b->own_inv_mass, b->k[0][FW_VY] += fy * b->own_inv_mass, b->k[0][FW_SPIN] += f * b->turn;
+}
+
 static fw_status let_go(fw_cluster *c, const fw_books *books, int32_t *opened, size_t *n_opened, fw_msg *msg)
 {
     size_t kept = 0, last = books->setup->method->n_stages - 1;
@@ -308,6 +322,7 @@ static fw_status let_go(fw_cluster *c, const fw_books *books, int32_t *opened, s
         /* Apart, and no force; or none when the step began: then what the dashpot says of rims that come back is no force yet. */
         if (p->depth[last] < 0 && (p->normal[last] <= 0 || p->normal[0] <= 0)) {
             opened[(*n_opened)++] = p->candidate;
+            take_force_back(c, p, last);
             c->members[p->a].n_pairs--;
             if (p->b != FW_WALL) c->members[p->b].n_pairs--;
             continue;
@@ -349,5 +364,8 @@ fw_status fw_cluster_commit(fw_cluster *c, const fw_books *books, int32_t *opene
         b->x = m->y0[FW_X], b->y = m->y0[FW_Y], b->vx = m->y0[FW_VX], b->vy = m->y0[FW_VY], b->spin = m->y0[FW_SPIN];
         m->drag[0][0] = m->drag[last][0], m->drag[0][1] = m->drag[last][1];
     }
-    return let_go(c, books, opened, n_opened, msg);
+    FW_TRY(let_go(c, books, opened, n_opened, msg));
+    /* Accelerations are velocity differences over the step: after a sliver of one they are rounding noise. */
+    if (h * c->omega < SLIVER) fw_stage_start(c, books);
+    return FW_OK;
 }

@@ -19,43 +19,43 @@ enum { FW_X = 0, FW_Y = 1, FW_VX = 4, FW_VY = 5, FW_SPIN = 6 };
 /* A floe of the cluster. */
 typedef struct fw_member {
     /* what a sweep reads and writes lies together */
-    double V[4];     /* unknown stage velocity (x, y, spin, 0) while it is solved for */
-    double inv_mass; /* of the stage: drag adds to inertia */
-    double radius;
-    double turn; /* radius x inv_inertia: spin per impulse along the rim */
+    double   V[4];     /* unknown stage velocity (x, y, spin, 0) while it is solved for */
+    double   inv_mass; /* of the stage: drag adds to inertia */
+    double   radius;
+    double   turn; /* radius x inv_inertia: spin per impulse along the rim */
     /* the stage's equations */
-    double r[8];                      /* known part */
-    double X, Y, U[4];                /* predicted stage position and the velocity it was predicted with */
-    double resistance, ease;          /* 1 + hg drag_rate and its inverse */
-    double drag_rate, drag_per_mass;  /* drag x |u - v| / mass [1/s] that V was built with; drag / mass [1/m] */
-    double own_inv_mass, inv_inertia; /* of the floe */
+    double   r[8];                      /* known part */
+    double   X, Y, U[4];                /* predicted stage position and the velocity it was predicted with */
+    double   resistance, ease;          /* 1 + hg drag_rate and its inverse */
+    double   drag_rate, drag_per_mass;  /* drag x |u - v| / mass [1/s] that V was built with; drag / mass [1/m] */
+    double   own_inv_mass, inv_inertia; /* of the floe */
     /* the step: state at both ends, slopes of the state at the stages: (vx, vy, spin, 0, ax, ay, spin's, 0) */
     double   y0[8], y1[8], k[FW_MAX_STAGES][8];
     double   drag[FW_MAX_STAGES][2];
-    double   fastest;            /* bound of |v - u| over the tried step [m/s] */
-    double   gained[3], shoved;  /* books' sums of one step: velocity from impulses, and their size without sign */
-    int32_t  index;              /* of the body in the world */
+    double   fastest;           /* bound of |v - u| over the tried step [m/s] */
+    double   gained[3], shoved; /* books' sums of one step: velocity from impulses, and their size without sign */
+    int32_t  index;             /* of the body in the world */
     uint32_t n_pairs;
 } fw_member;
 
 /* A closed contact. b = FW_WALL: the structure. */
 typedef struct fw_pair {
     /* what a sweep reads and writes */
-    fw_member *ma, *mb;      /* members a and b, or the cluster's wall; set anew for each stage, since members move */
-    double nx, ny;           /* this stage, from b to a */
-    double alpha, beta;      /* N = max(0, alpha + beta closing rate) */
-    double to_push, to_rub;  /* impulses that a sweep answers with, per force without it and per slip */
-    double push, rub;        /* impulses of this stage [N s] */
-    double w_normal, w_slip; /* inverse effective masses */
-    double mu;
-    int32_t              a, b; /* members */
-    double               depth_star, rate_star;
+    fw_member *ma, *mb;     /* members a and b, or the cluster's wall; set anew for each stage, since members move */
+    double     nx, ny;      /* this stage, from b to a */
+    double     alpha, beta; /* N = max(0, alpha + beta closing rate) */
+    double     to_push, to_rub;  /* impulses that a sweep answers with, per force without it and per slip */
+    double     push, rub;        /* impulses of this stage [N s] */
+    double     w_normal, w_slip; /* inverse effective masses */
+    double     mu;
+    int32_t    a, b; /* members */
+    double     depth_star, rate_star;
     fw_contact_constants law;
     double               t_touch, since_touch;
     double               normal[FW_MAX_STAGES], friction[FW_MAX_STAGES], slip[FW_MAX_STAGES], rate[FW_MAX_STAGES];
     double               depth[FW_MAX_STAGES], dir[FW_MAX_STAGES][2];
-    double               load, load_tried; /* of this touch so far, and of the tried step: see wear_error in cluster.c */
-    int32_t              candidate;        /* its entry in the lists of who may touch whom */
+    double  load, load_tried; /* of this touch so far, and of the tried step: see wear_error in cluster.c */
+    int32_t candidate;        /* its entry in the lists of who may touch whom */
 } fw_pair;
 
 typedef struct fw_cluster {
@@ -83,11 +83,12 @@ static inline double fw_length(double x, double y) { return sqrt(x * x + y * y);
 static inline double fw_smaller(double a, double b) { return b < a ? b : a; }
 
 /* stage.c */
-void fw_stage_start(fw_cluster *c, const fw_books *b);           /* accelerations at t0, from forces */
+void fw_stage_start(fw_cluster *c, const fw_books *b);                     /* accelerations at t0, from forces */
 void fw_stage_solve(fw_cluster *c, const fw_books *b, size_t s, double h); /* stage s of a step h */
 
 /* cluster.c */
-fw_status fw_cluster_join(fw_cluster *c, const fw_books *b, int32_t body, int32_t *member, fw_msg *m); /* at its state */
+fw_status fw_cluster_join(fw_cluster *c, const fw_books *b, int32_t body, int32_t *member,
+                          fw_msg *m);                                      /* at its state */
 fw_status fw_cluster_merge(fw_cluster *into, fw_cluster *from, fw_msg *m); /* from is empty afterwards */
 /* New contact of members a and b (or the structure) at t0. Steps start anew: call fw_cluster_restart afterwards. */
 fw_status fw_cluster_close(fw_cluster *c, const fw_books *b, int32_t a, int32_t other, int32_t candidate, double rate,
@@ -110,8 +111,11 @@ double fw_cluster_lets_go(const fw_cluster *c, const fw_pair *p, const fw_method
 double fw_member_fastest(const fw_member *m, double speed, double inv_h);
 
 /* books.c: of the tried step */
-void fw_books_keep(const fw_cluster *c, const fw_books *b);
-void fw_books_wear(const fw_cluster *c, const fw_books *b);
-static inline double fw_pair_signed_normal(const fw_pair *p, size_t s) { return p->law.k * p->depth[s] + p->law.c * p->rate[s]; }
+void                 fw_books_keep(const fw_cluster *c, const fw_books *b);
+void                 fw_books_wear(const fw_cluster *c, const fw_books *b);
+static inline double fw_pair_signed_normal(const fw_pair *p, size_t s)
+{
+    return p->law.k * p->depth[s] + p->law.c * p->rate[s];
+}
 
 #endif

@@ -26,20 +26,20 @@ typedef struct fw_setup {
     /* numerics */
     bool             is_lone_exact; /* a lone floe on the structure by closed forms (lone.h) instead of the method */
     const fw_method *method;
-    double           tolerance;       /* local error of velocity per sub-step over velocity_scale */
-    double           wear_tolerance;  /* error of a step's wear over the wear of its touch so far */
-    double           velocity_scale;  /* [m/s] */
-    double           first_step;      /* after a touch, in 1/w */
-    double           growth;          /* largest factor from one sub-step to the next */
-    double           max_step;        /* in 1/w of the stiffest closed contact; INFINITY: none */
-    double           solver_share;    /* of the tolerance: what the sweeps of a stage may leave */
-    double           landing;         /* a touch is located to this share of closing rate / w [m] */
-    double           horizon;         /* way of the current between two listings of who may touch whom [m] */
-    double           margin;          /* a floe in contact is listed anew when it is this far off its line [m] */
-    double           skin;            /* of the plain method: neighbours are listed up to this gap [m] */
-    double           half_width;      /* of the strip: untouched floes outside are not there; INFINITY: all */
-    double           downstream;      /* floes past this x are forgotten [m]; INFINITY: none */
-    double           max_evaluations; /* force evaluations allowed; INFINITY: no limit */
+    double           tolerance;      /* local error of velocity per sub-step over velocity_scale */
+    double           wear_tolerance; /* error of a step's wear over the wear of its touch so far */
+    double           velocity_scale; /* [m/s] */
+    double           first_step;     /* after a touch, in 1/w */
+    double           growth;         /* largest factor from one sub-step to the next */
+    double max_step;        /* longest step, as way of the current [m]: errors of velocity add up to errors of place */
+    double solver_share;    /* of the tolerance: what the sweeps of a stage may leave */
+    double landing;         /* a touch is located to this share of closing rate / w [m] */
+    double horizon;         /* way of the current between two listings of who may touch whom [m] */
+    double margin;          /* a floe in contact is listed anew when it is this far off its line [m] */
+    double skin;            /* of the plain method: neighbours are listed up to this gap [m] */
+    double half_width;      /* of the strip: untouched floes outside are not there; INFINITY: all */
+    double downstream;      /* floes past this x are forgotten [m]; INFINITY: none */
+    double max_evaluations; /* force evaluations allowed; INFINITY: no limit */
 } fw_setup;
 
 typedef struct fw_kernel fw_kernel;

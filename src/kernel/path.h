@@ -14,12 +14,12 @@ typedef struct fw_place {
 typedef struct fw_path {
     enum { FW_PATH_STANDS, FW_PATH_DRIFTS, FW_PATH_FLIES, FW_PATH_CUBIC } kind;
     double radius;
-    double t0, x, y, vx, vy; /* at t0 */
-    double speed;            /* of the water along +x */
-    double K;                /* flies: drag per mass [1/m] */
-    double r;                /* flies: |v - u| at t0 */
+    double t0, x, y, vx, vy;    /* at t0 */
+    double speed;               /* of the water along +x */
+    double K;                   /* flies: drag per mass [1/m] */
+    double r;                   /* flies: |v - u| at t0 */
     double h, x1, y1, vx1, vy1; /* cubic: at t0 + h */
-    double bound;            /* |v - u| is never more from t0 on (cubic: within the step) */
+    double bound;               /* |v - u| is never more from t0 on (cubic: within the step) */
 } fw_path;
 
 fw_path fw_path_of_structure(const fw_setup *s);

@@ -72,7 +72,8 @@ void fw_stage_start(fw_cluster *c, const fw_books *books)
         fw_pair      *p = &c->pairs[k];
         fw_member    *a = p->ma, *b = p->mb;
         const double *va = a->y0 + FW_VX, *vb = b->y0 + FW_VX;
-        geometry(a->y0[FW_X] - b->y0[FW_X], a->y0[FW_Y] - b->y0[FW_Y], a->radius + b->radius, &p->nx, &p->ny, &p->depth[0]);
+        geometry(a->y0[FW_X] - b->y0[FW_X], a->y0[FW_Y] - b->y0[FW_Y], a->radius + b->radius, &p->nx, &p->ny,
+                 &p->depth[0]);
         p->rate[0] = closing(p, va, vb), p->slip[0] = slipping(p, va, vb);
         p->normal[0] = fw_contact_normal(&p->law, p->depth[0], p->rate[0]);
         p->friction[0] = fw_contact_friction(&p->law, p->normal[0], p->slip[0]);
@@ -119,7 +120,8 @@ static void predict(fw_cluster *c, const fw_setup *set, size_t s, double h)
 /* What a sweep would divide by, each time and in its chain of dependences. */
 static inline void prepare(fw_pair *p, double hg)
 {
-    double n = 1 + p->beta * hg * p->w_normal, t = 1 + p->law.ct * hg * p->w_slip, inv = hg / (n * t); /* one division */
+    double n = 1 + p->beta * hg * p->w_normal, t = 1 + p->law.ct * hg * p->w_slip,
+           inv = hg / (n * t); /* one division */
     p->to_push = t * inv;
     p->to_rub = -p->law.ct * n * inv;
 }
@@ -171,7 +173,7 @@ static double renew_drag(fw_cluster *c, const fw_setup *set, double hg, double e
         fw_member *m = &c->members[i];
         double     speed = relative_speed(set, m->V[0], m->V[1]);
         /* what the new drag would change, to first order: most floes need no renewal */
-        double change = hg * fabs(m->drag_per_mass * speed - m->drag_rate) * speed * m->ease;
+        double     change = hg * fabs(m->drag_per_mass * speed - m->drag_rate) * speed * m->ease;
         if (!(change > enough)) continue;
         double jx = m->V[0] * m->resistance - (m->r[FW_VX] + hg * m->drag_rate * set->speed),
                jy = m->V[1] * m->resistance - m->r[FW_VY];
@@ -196,7 +198,7 @@ void fw_stage_solve(fw_cluster *c, const fw_books *books, size_t s, double h)
     double          hg = h * set->method->gamma, inv = 1 / hg;
     bool            is_lone = c->n_pairs == 1;
     /* A lone contact is solved by one sweep, so it may as well be solved well: what it leaves, error control pays for. */
-    double enough = (is_lone ? 0.02 : 1) * set->solver_share * set->tolerance * set->velocity_scale;
+    double          enough = (is_lone ? 0.02 : 1) * set->solver_share * set->tolerance * set->velocity_scale;
     if (s == 1) point_to_members(c, set);
     predict(c, set, s, h);
     linearise(c, s, hg);

@@ -76,7 +76,8 @@ static bool lines_meet(const fw_traffic *t, int32_t i, int32_t j)
 
 static fw_status add(fw_traffic *t, int32_t i, int32_t j, int32_t block, int32_t row, fw_msg *m)
 {
-    FW_TRY(fw_grow(&t->candidates, &t->candidate_capacity, t->n_candidates + 1, sizeof *t->candidates, "candidates", m));
+    FW_TRY(
+        fw_grow(&t->candidates, &t->candidate_capacity, t->n_candidates + 1, sizeof *t->candidates, "candidates", m));
     int32_t name = (int32_t)t->n_candidates++;
     t->candidates[name] = (fw_candidate){.i = i,
                                          .j = j,
@@ -130,14 +131,15 @@ static fw_status add_ice(fw_traffic *t, int32_t i, double x, double y, double vx
         size_t ix0, ix1, iy0, iy1;
         fw_cells_range(&b->cells, cx, cy, reach, &ix0, &ix1, &iy0, &iy1);
         for (size_t iy = iy0; iy < iy1; iy++)
-            for (size_t q = b->cells.start[iy * b->cells.nx + ix0]; ix0 < ix1 && q < b->cells.start[iy * b->cells.nx + ix1];
-                 q++) {
+            for (size_t q = b->cells.start[iy * b->cells.nx + ix0];
+                 ix0 < ix1 && q < b->cells.start[iy * b->cells.nx + ix1]; q++) {
                 size_t r = b->cells.item[q];
                 double limit = radius + b->radius[r];
                 if (b->is_taken[r] || nearest2(X - b->x[r], y - b->y[r], u, vy, dt) >= limit * limit ||
                     fabs(b->y[r]) > t->setup.half_width)
                     continue;
-                if (is_new || !has_ice(t, i, (int32_t)k, (int32_t)r)) FW_TRY(add(t, i, FW_ICE, (int32_t)k, (int32_t)r, m));
+                if (is_new || !has_ice(t, i, (int32_t)k, (int32_t)r))
+                    FW_TRY(add(t, i, FW_ICE, (int32_t)k, (int32_t)r, m));
             }
     }
     return FW_OK;
@@ -148,7 +150,8 @@ static fw_status add_structure_and_ice(fw_traffic *t, int32_t i, bool is_new, fw
     const fw_seat *s = &t->seats[i];
     double         r = t->world->bodies[i].radius + s->margin, x = line_x(t, s), y = line_y(t, s);
     double         limit = r + t->setup.structure_radius;
-    if (nearest2(x, y, s->vx, s->vy, t->until - t->now) < limit * limit && (is_new || fw_traffic_find(t, i, FW_WALL) < 0))
+    if (nearest2(x, y, s->vx, s->vy, t->until - t->now) < limit * limit &&
+        (is_new || fw_traffic_find(t, i, FW_WALL) < 0))
         FW_TRY(add(t, i, FW_WALL, -1, -1, m));
     return t->setup.has_floe_contact ? add_ice(t, i, x, y, s->vx, s->vy, r, is_new, m) : FW_OK;
 }

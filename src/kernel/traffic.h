@@ -44,8 +44,8 @@ typedef struct fw_traffic {
     struct fw_edge {
         double  left, right;
         int32_t body;
-    }     *edges;
-    size_t edge_capacity;
+    } * edges;
+    size_t  edge_capacity;
     int32_t soonest; /* candidate with the earliest touch; -1: none; */
     bool    is_soonest_known;
 } fw_traffic;
@@ -61,16 +61,19 @@ fw_status fw_traffic_list_body(fw_traffic *t, int32_t i, fw_msg *m);
 /* The same if it leaves its line within its path as known. */
 fw_status fw_traffic_follow(fw_traffic *t, int32_t i, fw_msg *m);
 /* The untouched floe of candidate c is body j now: every candidate that named it follows. */
-void fw_traffic_woken(fw_traffic *t, int32_t c, int32_t j);
+void      fw_traffic_woken(fw_traffic *t, int32_t c, int32_t j);
 
 void    fw_traffic_check(fw_traffic *t, int32_t c);
 void    fw_traffic_check_body(fw_traffic *t, int32_t i); /* all its candidates; those within its cluster once */
 void    fw_traffic_touches_at(fw_traffic *t, int32_t c, double touch); /* found by somebody who knows better */
-int32_t fw_traffic_soonest(fw_traffic *t);               /* -1: nobody touches as far as is known */
-int32_t fw_traffic_find(const fw_traffic *t, int32_t i, int32_t j); /* -1: no such candidate */
+int32_t fw_traffic_soonest(fw_traffic *t);                             /* -1: nobody touches as far as is known */
+int32_t fw_traffic_find(const fw_traffic *t, int32_t i, int32_t j);    /* -1: no such candidate */
 
 fw_status fw_traffic_add(fw_traffic *t, int32_t i, int32_t j, int32_t *name, fw_msg *m); /* whatever their lines say */
 
-static inline int32_t fw_traffic_next(const fw_candidate *c, int32_t body) { return c->i == body ? c->next_i : c->next_j; }
+static inline int32_t fw_traffic_next(const fw_candidate *c, int32_t body)
+{
+    return c->i == body ? c->next_i : c->next_j;
+}
 
 #endif

@@ -46,7 +46,7 @@ void fw_accuracy_setup(fw_setup *s, const fw_model *m, double speed, double velo
         .velocity_scale = velocity_scale,
         .first_step = blend(TABLE[r].first_step, TABLE[r + 1].first_step, f),
         .growth = blend(TABLE[r].growth, TABLE[r + 1].growth, f),
-        .max_step = INFINITY,
+        .max_step = 2.0,
         .solver_share = 0.5,
         .landing = 10 * blend(TABLE[r].tolerance, TABLE[r + 1].tolerance, f),
         .horizon = 4.0,
@@ -93,4 +93,20 @@ size_t fw_accuracy_lines(const fw_model *m, double speed, fw_accuracy_line *line
     size_t n = sizeof all / sizeof all[0] < capacity ? sizeof all / sizeof all[0] : capacity;
     for (size_t i = 0; i < n; i++) lines[i] = all[i];
     return n;
+}
+
+fw_numerics fw_accuracy_built_in(const fw_model *m)
+{
+    fw_setup s;
+    fw_model bare = *m;
+    bare.numerics = (fw_numerics){.scheme = FW_SCHEME_EVENTS};
+    fw_accuracy_setup(&s, &bare, 1, 1);
+    return (fw_numerics){
+        .order = s.method->order, .tolerance = s.tolerance, .wear_tolerance = s.wear_tolerance, .first_step = s.first_step, .growth = s.growth};
+}
+
+void fw_accuracy_set_tolerance(fw_numerics *n, double tolerance)
+{
+    n->wear_tolerance *= tolerance / n->tolerance;
+    n->tolerance = tolerance;
 }

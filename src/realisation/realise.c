@@ -94,7 +94,7 @@ static fw_status lay(run *r, const fw_scenario *sc, fw_msg *m)
     r->row0 = -r->row1;
     FW_TRY(fw_world_create(&r->world, r->model->structure_radius, m));
     if (r->model->numerics.scheme != FW_SCHEME_EVENTS)
-        FW_TRY(fw_plain_create(&r->plain, &r->setup, r->model->numerics.step, PLAIN_INLET, m));
+        FW_TRY(fw_plain_create(&r->plain, &r->setup, &r->model->numerics, PLAIN_INLET, m));
     else
         FW_TRY(fw_kernel_create(&r->kernel, &r->setup, m));
     r->world->max_radius = fw_field_max_radius(r->field);

@@ -6,21 +6,9 @@
 #include "base/memory.h"
 #include "store/results.h"
 #include "store/results_block.h"
+#include "store/tables_put.h"
 
 enum { SCALAR_CHUNK = 8192 };
-
-static fw_status put_root(const fw_h5_file *f, const fw_campaign *c, fw_msg *m)
-{
-    char hash[20];
-    snprintf(hash, sizeof hash, "%016" PRIx64, c->hash);
-    FW_TRY(fw_h5_put_origin(f, FW_RESULTS_FILETYPE, FW_RESULTS_VERSION, m));
-    FW_TRY(fw_h5_put_text(f, f->id, "name", c->name, m));
-    FW_TRY(fw_h5_put_text(f, f->id, "campaign", c->text != NULL ? c->text : "", m));
-    FW_TRY(fw_h5_put_texts(f, f->id, "sets", c->n_sets, (const char *const *)c->sets, m));
-    FW_TRY(fw_h5_put_text(f, f->id, "settings", c->settings != NULL ? c->settings : "", m));
-    FW_TRY(fw_h5_put_text(f, f->id, "settings_hash", hash, m));
-    return fw_h5_put_u64(f, f->id, "seed", c->seed, m);
-}
 
 /* "MPa^1.121 km", or one such text per law when exponents differ: "MPa^1.121 km; MPa^1 km". */
 static void load_unit(char *text, size_t size, const fw_model *model)
@@ -151,61 +139,6 @@ static fw_status put_realisations(const fw_h5_file *f, const fw_campaign *c, con
     return status;
 }
 
-/* Texts of a column as fixed-length rows of the longest one. */
-static fw_status put_text_column(const fw_h5_file *f, hid_t group, const fw_column *c, const fw_h5_shape *shape,
-                                 fw_msg *m)
-{
-    size_t n = (size_t)shape->dims[0], width = 1;
-    for (size_t i = 0; i < n; i++) {
-        size_t length = c->text[i] != NULL ? strlen(c->text[i]) : 0;
-        if (length > width) width = length;
-    }
-    char *rows;
-    FW_TRY(fw_alloc(&rows, n, width, c->name, m));
-    for (size_t i = 0; i < n; i++) {
-        if (c->text[i] != NULL) memcpy(rows + i * width, c->text[i], strlen(c->text[i]));
-    }
-    hid_t     dataset, type = fw_h5_text_type(width);
-    fw_status status = type < 0
-                           ? fw_h5_fail(f, FW_E_INTERNAL, c->name, m)
-                           : fw_h5_create_dataset(f, group, c->name, type, shape, c->unit, c->long_name, &dataset, m);
-    if (status == FW_OK) {
-        status = fw_h5_write_rows(f, dataset, type, 0, n, rows, m);
-        H5Dclose(dataset);
-    }
-    if (type >= 0) H5Tclose(type);
-    free(rows);
-    return status;
-}
-
-static fw_status put_column(const fw_h5_file *f, hid_t group, const fw_column *c, const fw_h5_shape *shape, fw_msg *m)
-{
-    FW_CHECK((c->number != NULL) + (c->integer != NULL) + (c->text != NULL) == 1, m, FW_E_ARG,
-             "column %s: exactly one of number, integer, text must be given", c->name);
-    if (c->text != NULL) return put_text_column(f, group, c, shape, m);
-    hid_t dataset;
-    bool  is_number = c->number != NULL;
-    FW_TRY(fw_h5_create_dataset(f, group, c->name, is_number ? H5T_IEEE_F64LE : H5T_STD_I64LE, shape, c->unit,
-                                c->long_name, &dataset, m));
-    fw_status status = fw_h5_write_rows(f, dataset, is_number ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64, 0, shape->dims[0],
-                                        is_number ? (const void *)c->number : (const void *)c->integer, m);
-    H5Dclose(dataset);
-    return status;
-}
-
-static fw_status put_table(const fw_h5_file *f, const fw_table *t, fw_msg *m)
-{
-    hid_t       group;
-    fw_h5_shape shape = {.rank = 1, .dims = {t->n_rows}};
-    FW_TRY(fw_h5_create_group(f, t->name, &group, m));
-    fw_status status = FW_OK;
-    for (size_t i = 0; i < t->n_columns && status == FW_OK; i++) {
-        status = put_column(f, group, &t->columns[i], &shape, m);
-    }
-    H5Gclose(group);
-    return status;
-}
-
 fw_status fw_results_write(const char *path, const fw_campaign *c, const fw_record_source *records, size_t n_tables,
                            const fw_table *tables, fw_msg *m)
 {
@@ -213,9 +146,9 @@ fw_status fw_results_write(const char *path, const fw_campaign *c, const fw_reco
     FW_CHECK(c->model.n_arcs > 0 && c->model.n_laws > 0 && c->model.n_laws <= FW_MAX_LAWS, m, FW_E_ARG,
              "%s: results of %zu arcs and %zu laws", path, c->model.n_arcs, c->model.n_laws);
     FW_TRY(fw_h5_file_create(&f, path, m));
-    fw_status status = put_root(&f, c, m);
+    fw_status status = fw_tables_put_root(&f, FW_RESULTS_FILETYPE, FW_RESULTS_VERSION, c, m);
     if (status == FW_OK) status = put_realisations(&f, c, records, m);
-    for (size_t i = 0; i < n_tables && status == FW_OK; i++) status = put_table(&f, &tables[i], m);
+    for (size_t i = 0; i < n_tables && status == FW_OK; i++) status = fw_tables_put(&f, &tables[i], m);
     if (status == FW_OK) return fw_h5_file_finish(&f, m);
     fw_h5_file_close(&f);
     return status;

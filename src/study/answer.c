@@ -253,6 +253,10 @@ fw_status fw_answer_make(fw_answer *out, const fw_campaign *c, const fw_answer_s
         out->n = source->n;
         out->n_failed = d.n_failed;
         out->confidence = q.confidence;
+        if (o && o->measured)
+            out->measured = *o->measured;
+        else
+            fw_measured_default(&out->measured, &c->model);
         out->design_percentile = choose_design_percentile(c, &q);
         s = answer(out, c, &q, &d, m);
     }

@@ -4,6 +4,7 @@
 #define FW_STUDY_ANSWER_H
 
 #include "floewear/campaign.h"
+#include "study/measured.h"
 
 /* Reads record id (0 .. n-1) into r, which is initialised with the campaign's sizes. */
 typedef struct fw_answer_source {
@@ -19,6 +20,7 @@ typedef struct fw_answer_options {
     const size_t *points;      /* (n_points) numbers from 1 */
     size_t        law;         /* index into the campaign's laws */
     double        confidence;  /* 0.95 */
+    const fw_measured *measured; /* numerical errors for the ledger; NULL: the Raahe campaign's */
 } fw_answer_options;
 
 typedef struct fw_percentile_row {
@@ -45,7 +47,7 @@ typedef struct fw_life_row {
 typedef struct fw_ledger_row {
     char   row[48];                             /* "sampling", "discretisation", ... */
     double amount;                              /* relative amount in the governing design number; NAN: not measured */
-    char   shrinks_with[96], cost_to_halve[96]; /* no clock in them: the same for every run of a campaign */
+    char   shrinks_with[224], cost_to_halve[128]; /* no clock in them: the same for every run of a campaign */
     double cost_to_halve_cpu_s;                 /* on the machines that computed the records; NAN: not measured */
 } fw_ledger_row;
 
@@ -61,6 +63,7 @@ typedef struct fw_answer {
     fw_point_row      *points;
     size_t             n_life;
     fw_life_row       *life;
+    fw_measured        measured; /* what the ledger's numerical rows are made from */
     size_t             n_ledger;
     fw_ledger_row     *ledger;
 } fw_answer;

@@ -2,6 +2,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "study/rows.h"
@@ -31,13 +32,62 @@ static void sampling(fw_ledger_row *row, const fw_window *w, const fw_percentile
     row->cost_to_halve_cpu_s = 3 * w->depth->cpu_s;
 }
 
-static void discretisation(fw_ledger_row *row, const fw_campaign *c, const fw_window *w)
+/* A numerical error, paired on the same ice: it stays in every realisation, so that halving it means to run them all again. */
+static void numerical(fw_ledger_row *row, const char *name, const fw_measured *all, const fw_measured_row *measured,
+                      const fw_window *w)
 {
+    SAY(row->row, "%s", name);
+    row->amount = measured->amount;
+    if (isnan(measured->amount)) {
+        SAY(row->shrinks_with, "not measured; %s", measured->shrinks_with);
+        SAY(row->cost_to_halve, "not measured");
+        return;
+    }
+    if (measured->error > 0)
+        SAY(row->shrinks_with, "%s; measured %s, +- %.1g %%", measured->shrinks_with, all->origin,
+            100 * measured->error);
+    else
+        SAY(row->shrinks_with, "%s; measured %s", measured->shrinks_with, all->origin);
+    if (isnan(measured->cost_factor)) {
+        SAY(row->cost_to_halve, "not known: %s", measured->halved_by);
+        return;
+    }
+    SAY(row->cost_to_halve, "all again with %s, %.3g times the work (%.3g force evaluations)", measured->halved_by,
+        measured->cost_factor, measured->cost_factor * w->depth->evaluations);
+    row->cost_to_halve_cpu_s = measured->cost_factor * w->depth->cpu_s;
+}
+
+static void discretisation(fw_ledger_row *row, const fw_campaign *c, const fw_measured *all, const fw_window *w)
+{
+    for (size_t i = 0; i < all->n_rows; i++)
+        if (strcmp(all->rows[i].row, "discretisation") == 0) {
+            numerical(row, "discretisation", all, &all->rows[i], w);
+            return;
+        }
     SAY(row->row, "discretisation");
     row->amount = c->model.accuracy;
     SAY(row->shrinks_with, "accuracy: (the promise; measured energy truncation %.2g on average)",
         w->depth->truncation / (double)w->depth->n);
     SAY(row->cost_to_halve, "not measured");
+}
+
+/* The sum of ring, strip, reach and warm-up, and each of them: they have different remedies. Returns the number of rows. */
+static size_t domain(fw_ledger_row *row, const fw_measured *all, const fw_window *w)
+{
+    fw_ledger_row *sum = row++;
+    double         amount = 0;
+    for (size_t i = 0; i < all->n_rows; i++) {
+        if (strcmp(all->rows[i].row, "discretisation") == 0) continue;
+        numerical(row++, all->rows[i].row, all, &all->rows[i], w);
+        if (all->rows[i].amount > 0) amount += all->rows[i].amount;
+    }
+    SAY(sum->row, "window, domain and warm-up");
+    sum->amount = row > sum + 1 ? amount : NAN;
+    SAY(sum->shrinks_with, "%s",
+        row > sum + 1 ? "the rows below, summed as if they all went one way"
+                      : "not measured; exposure and strip settings");
+    SAY(sum->cost_to_halve, "%s", row > sum + 1 ? "see there" : "not measured");
+    return (size_t)(row - sum);
 }
 
 static void failed_runs(fw_ledger_row *row, const fw_window *w, const fw_percentile_row *g)
@@ -83,13 +133,14 @@ static void between_years(fw_ledger_row *row, const fw_campaign *c)
 fw_status fw_ledger_rows(fw_answer *a, const fw_campaign *c, const fw_window *w, const fw_percentile_row *governing,
                          fw_msg *m)
 {
-    FW_TRY(fw_alloc(&a->ledger, 9, sizeof *a->ledger, "rows of the ledger", m));
-    for (size_t i = 0; i < 9; i++) a->ledger[i].cost_to_halve_cpu_s = NAN;
+    enum { MOST = 9 + FW_MEASURED_ROWS };
+    FW_TRY(fw_alloc(&a->ledger, MOST, sizeof *a->ledger, "rows of the ledger", m));
+    for (size_t i = 0; i < MOST; i++) a->ledger[i].cost_to_halve_cpu_s = NAN;
     fw_ledger_row *row = a->ledger;
     sampling(row++, w, governing);
-    discretisation(row++, c, w);
+    discretisation(row++, c, &a->measured, w);
+    row += domain(row, &a->measured, w);
     failed_runs(row++, w, governing);
-    unmeasured(row++, "window, domain and warm-up", "exposure and strip settings");
     unmeasured(row++, "ice field against scenario", "more realisations");
     unmeasured(row++, "law and its scatter", "laboratory and field data (a published fit has R2 66 %)");
     unmeasured(row++, "switched-off effects", "switching them on (effects:)");

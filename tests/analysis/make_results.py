@@ -85,3 +85,33 @@ def make(path, name="synthetic", n=200, bearings=None, direction=ROSE, shares=No
         laws = np.array(["bekker2011"], dtype=h5py.string_dtype())
         file["realisations/wear_load"].attrs["laws"] = laws
     return path
+
+
+def make_study(path, name="synthetic", n_coupled=8, budget=True, chosen=True):
+    """An accuracy study whose methods are exact power laws: error of order 2 falls with the square of CPU time, of the plain
+    schemes with its first power."""
+    methods, levels, cpu, error, is_chosen = [], [], [], [], []
+    for method, first, order in (("events 2, hermite", 3e-3, 2.0), ("events 3, hermite", 4e-3, 3.0),
+                                 ("every floe, euler, naive", 3e-2, 1.0), ("every floe, rk4, hermite", 0.1, 1.0)):
+        for k in range(4):
+            methods.append(method)
+            levels.append(10.0 ** (-2 - k))
+            cpu.append(first * 2.0**k)
+            error.append(0.02 * 2.0 ** (-order * k))
+            is_chosen.append(float(chosen and method == "events 2, hermite" and k == 1))
+    n = len(methods)
+    with h5py.File(path, "w") as file:
+        file.attrs["filetype"] = "floewear accuracy"
+        file.attrs["name"] = name
+        known = np.array(error) if n_coupled else np.full(n, np.nan)
+        table(file, "work_precision", {"method": methods, "setting": [f"tolerance {level:g}" for level in levels], "cpu_s": cpu,
+                                       "coupled_rms": known, "depth_rms": np.array(error) * 2.0, "is_chosen": is_chosen})
+        rows = [(b, 10.0 ** (-2 - k), 1e-2 * 0.3**k, 2.0 / np.sqrt(b / (1.0 + k)), k == 1.0)
+                for b in (20.0, 200.0, 2e5) for k in range(4)] if budget else []
+        spent, tolerance, step, sampling, taken = (np.array(c, float) for c in zip(*rows)) if rows else [np.zeros(0)] * 5
+        table(file, "budget_cpu", {"budget_cpu_s": spent, "tolerance": tolerance, "step_error": step, "sampling_error": sampling,
+                                   "total_error": np.hypot(step, sampling), "n": spent, "is_chosen": taken})
+        table(file, "summary", {"accuracy": [0.01], "n_windows": [8.0], "n_coupled": [float(n_coupled)], "way": [60.0],
+                                "warm_up_way": [20.0], "mean_speed": [0.47], "reference_hit_error": [7e-7],
+                                "cpu_s_window": [0.4]})
+    return path

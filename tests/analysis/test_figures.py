@@ -42,13 +42,21 @@ class Figures(unittest.TestCase):
     def draw(self, name, **options):
         folder = WORK / name
         folder.mkdir(parents=True, exist_ok=True)
-        results = make_results.make(folder / f"{name}.h5", name=name, **options)
+        return self.check(name, folder, make_results.make(folder / f"{name}.h5", name=name, **options), ("exceedance", "polar"))
+
+    def draw_study(self, name, **options):
+        folder = WORK / name
+        folder.mkdir(parents=True, exist_ok=True)
+        study = make_results.make_study(folder / f"{name}.accuracy.h5", name=name, **options)
+        return self.check(name, folder, study, ("budget", "work-precision"))
+
+    def check(self, name, folder, results, kinds):
         done = self.run_figures(results)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stderr, "")
         figures = sorted(folder.glob("*.svg")) + sorted(folder.glob("*.png"))
         self.assertEqual([f.name for f in figures], [f"{name}-{kind}.{suffix}" for suffix in ("svg", "png")
-                                                     for kind in ("exceedance", "polar")])
+                                                     for kind in kinds])
         for figure in figures:
             self.assertIn(f"figure: {figure}", done.stdout)
             if figure.suffix == ".svg":
@@ -77,6 +85,19 @@ class Figures(unittest.TestCase):
 
     def test_one_window_one_point(self):
         self.draw("single", n=1, bearings=[200.0], direction="20 deg", shares={20.0: 1.0})
+
+    def test_accuracy_study(self):
+        self.draw_study("study")
+
+    def test_accuracy_study_of_jams(self):
+        """No window stays coupled: the r.m.s. over all windows stands in."""
+        self.draw_study("jams", n_coupled=0)
+
+    def test_slopes(self):
+        """Exact power laws give their exponents back."""
+        cpu = np.array([1.0, 2.0, 4.0])
+        self.assertAlmostEqual(accuracy.line_slope(cpu, 3.0 * cpu**-2.0), -2.0)
+        self.assertIsNone(accuracy.line_slope(cpu[:1], cpu[:1]))
 
     def results(self, **options):
         (WORK / "laws").mkdir(parents=True, exist_ok=True)
@@ -122,7 +143,10 @@ class Figures(unittest.TestCase):
         with h5py.File(folder / "empty.h5", "w"):
             pass
         make_results.make(folder / "good.h5")
-        for arguments, words in (([folder / "absent.h5"], "absent.h5"), ([folder / "text.h5"], "text.h5"),
+        make_results.make_study(folder / "none.accuracy.h5", chosen=False)
+        make_results.make_study(folder / "dry.accuracy.h5", budget=False)
+        for arguments, words in (([folder / "none.accuracy.h5"], "no chosen row"), ([folder / "dry.accuracy.h5"], "/budget_cpu"),
+                                 ([folder / "absent.h5"], "absent.h5"), ([folder / "text.h5"], "text.h5"),
                                  ([folder / "empty.h5"], "/percentiles"),
                                  ([folder / "good.h5", "--points", "99"], "99")):
             done = self.run_figures(*arguments)
@@ -134,6 +158,7 @@ class Figures(unittest.TestCase):
 if __name__ == "__main__":
     SOURCE, WORK = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
     sys.path.insert(0, str(SOURCE / "analysis"))
+    import accuracy
     import windows
     from results import Results
     unittest.main(argv=sys.argv[:1], verbosity=2)

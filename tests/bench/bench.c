@@ -84,7 +84,7 @@ fw_record bench_realise(double concentration, double speed, double window, doubl
     fw_model m;
     fw_model_defaults(&m);
     m.window = window, m.accuracy = accuracy, m.numerics.step = plain_step;
-    if (plain_step > 0) m.numerics.scheme = FW_SCHEME_EULER;
+    if (plain_step > 0) m.numerics.scheme = FW_SCHEME_EULER, m.numerics.wear_rule = FW_WEAR_NAIVE;
     fw_scenario s = {.seed = 20260101, .id = id, .concentration = concentration, .speed = speed};
     fw_record   r;
     fw_msg      msg = {""};

@@ -21,7 +21,7 @@ static fw_setup setup(void)
                       .velocity_scale = 2,
                       .first_step = 0.05,
                       .growth = 3,
-                      .max_step = INFINITY,
+                      .max_step = 2,
                       .wear_tolerance = 1e-4,
                       .solver_share = 1e-3,
                       .landing = 1e-4,

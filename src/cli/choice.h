@@ -1,0 +1,32 @@
+/* The choice of `floewear accuracy` as `run` and `plan` take it: from NAME.accuracy.h5 beside the results, or from the file that
+ * --accuracy-from names, if it belongs to this very campaign (all settings equal). What it chose is applied like --set, so that it
+ * stands in the campaign's settings, in its hash, in the journal and in NAME.h5. */
+#ifndef FW_CLI_CHOICE_H
+#define FW_CLI_CHOICE_H
+
+#include "cli/accuracy_file.h"
+#include "floewear/campaign.h"
+
+/* "results/a.h5", "results/a" and "results/a.accuracy.h5" all mean results/a.accuracy.h5. */
+fw_status fw_choice_path(char *path, size_t size, const char *out, fw_msg *m);
+
+typedef struct fw_choice_wanted {
+    const char        *campaign; /* the file */
+    size_t             n_sets;
+    const char *const *sets; /* (n_sets) */
+    int64_t            seed; /* < 0: the file's */
+    const char        *from; /* --accuracy-from; NULL: look beside out */
+    const char        *out;  /* stem of the results; NULL: the campaign's name */
+} fw_choice_wanted;
+
+typedef struct fw_choice {
+    bool        is_taken;
+    char        line[512]; /* which choice is used and why, for stderr */
+    fw_measured measured;  /* the ledger's rows: the file's, else the Raahe campaign's */
+} fw_choice;
+
+/* The campaign with the choice applied. A file beside the results that is damaged or belongs to another campaign is passed over, and
+ * line says so; one that was named is refused: FW_E_IO, FW_E_FORMAT, FW_E_MISMATCH. */
+fw_status fw_choice_campaign(fw_campaign *c, const fw_choice_wanted *wanted, fw_choice *out, fw_msg *m);
+
+#endif

@@ -1,0 +1,52 @@
+/* Inside the plain methods only: plain.c (who is stepped), plain_step.c (the schemes), plain_wear.c (wear from both ends of a step). */
+#ifndef FW_KERNEL_PLAIN_INSIDE_H
+#define FW_KERNEL_PLAIN_INSIDE_H
+
+#include "kernel/neighbours.h"
+#include "kernel/plain.h"
+
+/* One floe near the structure at one instant. */
+typedef struct fw_plain_wall {
+    double depth, rate, normal, slip, angle; /* normal k d + c d' with its sign; depth < 0: a gap */
+} fw_plain_wall;
+
+struct fw_plain {
+    fw_setup              setup;
+    fw_numerics           numerics;
+    double                inlet;
+    fw_neighbours         neighbours;
+    fw_contact_constants *law;
+    size_t                law_capacity; /* (n_near) */
+    double               *force;        /* (n_bodies x 3) */
+    size_t                force_capacity;
+    double               *stage; /* (n_bodies x 10) of RK4: the step's start, and the weighted sums of its slopes */
+    size_t                stage_capacity;
+    size_t               *near_wall; /* (n_walls) which near pairs are with the structure */
+    size_t                n_walls, near_wall_capacity;
+    fw_plain_wall        *wall; /* (n_walls) at the step's start */
+    size_t                wall_capacity;
+    double               *t_touch; /* (n_bodies) when the contact with the structure closed */
+    size_t                touch_capacity;
+    double *slope; /* (n_bodies x 3) accelerations at the step's start, of Verlet; 0: drifts with the water */
+    size_t  slope_capacity;
+    bool    has_started;
+    bool   *is_gone;
+    size_t  gone_capacity;
+};
+
+/* Accelerations of the first n floes, for Verlet: of those that were there at the start. What is woken later drifts with the water. */
+void fw_plain_begin_slopes(fw_plain *p, fw_world *w, size_t n);
+/* One step of the scheme; advances the world's time and drift. */
+void fw_plain_advance(fw_plain *p, fw_world *w, fw_wear *wear, double dt);
+
+/* Before and after a step: what the structure's contacts were and have become; the wear rule gets both ends. */
+void fw_plain_wear_begin(fw_plain *p, const fw_world *w);
+void fw_plain_wear_end(fw_plain *p, fw_world *w, fw_wear *wear, double t, double dt);
+
+/* Euler with the naive rule collects inside its force loop and needs neither. */
+static inline bool fw_plain_is_naive_euler(const fw_plain *p)
+{
+    return p->numerics.scheme == FW_SCHEME_EULER && p->numerics.wear_rule == FW_WEAR_NAIVE;
+}
+
+#endif
