@@ -8,6 +8,7 @@
 #include "effects/effects.h"
 #include "physics/abrasion.h"
 #include "physics/unbreakable.h"
+#include "realisation/accuracy.h"
 
 /* ---- abrasion laws ---------------------------------------------------------------------------------------------- */
 
@@ -296,6 +297,10 @@ fw_status fw_file_read_model(const fw_reader *r, fw_values *v, fw_model *model)
     model->friction = v->friction;
     model->slip_damping_ratio = v->slip_damping_ratio;
     model->accuracy = v->accuracy;
-    model->n_arcs = (size_t)v->n_arcs;
+    if (v->n_arcs >= 0 && v->n_arcs != floor(v->n_arcs)) {
+        return fw_yaml_fail(fw_yaml_get(fw_yaml_get(r->root, "ring"), "arcs"), r->m,
+                            "ring.arcs = %g: wanted a whole number from 72 to 3600", v->n_arcs);
+    }
+    model->n_arcs = v->n_arcs >= 0 ? (size_t)v->n_arcs : fw_accuracy_arcs(v->accuracy);
     return read_effects(r, fw_yaml_get(r->root, "effects"), model);
 }

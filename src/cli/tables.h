@@ -24,7 +24,7 @@ typedef struct fw_values {
     double   water_density, form_drag;
     double   window, warm_up;
     double   strip_width, downstream;
-    uint64_t n_arcs;
+    double   n_arcs;
     double   order, tolerance, wear_tolerance, first_step, growth; /* < 0: auto */
     char     quantity[FW_KEY_TEXT_SIZE];
     double   half_width, confidence;

@@ -95,7 +95,8 @@ static fw_status wake(fw_kernel *k, int32_t c, fw_msg *m)
     k->n_seated = w->n_bodies;
     fw_traffic_woken(t, c, j);
     /* What it may push lies where no ice has been made yet: list anew before going on. */
-    if (b->x - b->radius - fw_kernel_ice_margin(k, w) < k->ice_from) t->until = t->now;
+    double margin = b->radius + fw_kernel_ice_margin(k), drift = w->drift + t->setup.speed * (t->now - w->t);
+    if (b->x - drift - margin < w->ice_from || b->y - margin < w->ice_low || b->y + margin > w->ice_high) t->until = t->now;
     return FW_OK;
 }
 

@@ -8,7 +8,6 @@
 struct fw_kernel {
     fw_traffic   traffic;
     double       horizon;  /* time between two listings [s] */
-    double       ice_from; /* the caller has put ice into the world up to here (kernel frame) [m] */
     fw_cluster **clusters;
     size_t       n_clusters, cluster_capacity;
     fw_cluster **spare; /* emptied ones, with their memory */
@@ -38,7 +37,7 @@ fw_status fw_event_step_ends(fw_kernel *k, fw_cluster *c, double t_end, fw_msg *
 fw_status fw_event_touch(fw_kernel *k, int32_t candidate, double t_end, fw_msg *m);
 void      fw_event_fly(fw_kernel *k, int32_t body, double t); /* a floe in no contact, to t */
 
-/* kernel.c: the caller has put ice into the world at least up to here [m] upstream of the awake floes */
-double fw_kernel_ice_margin(const fw_kernel *k, const fw_world *w);
+/* kernel.c: how far from an awake floe's rim ice has to be known [m] */
+double fw_kernel_ice_margin(const fw_kernel *k);
 
 #endif

@@ -45,20 +45,20 @@ void fw_kernel_destroy(fw_kernel *k)
     free(k);
 }
 
-/* Upstream of the awake floes: who is reached within one horizon, and once more for who those push. */
-double fw_kernel_ice_margin(const fw_kernel *k, const fw_world *w)
-{
-    return w->max_radius + 2 * k->traffic.setup.horizon + k->traffic.setup.margin;
-}
+/* Beyond an awake floe's rim: whom it may reach until the next listing. Whom those push in turn is looked at when they wake (events.c). */
+double fw_kernel_ice_margin(const fw_kernel *k) { return k->traffic.setup.horizon + k->traffic.setup.margin; }
 
-double fw_kernel_needs_ice_from(const fw_kernel *k, const fw_world *w)
+void fw_kernel_needs_ice(const fw_kernel *k, const fw_world *w, double *from, double *low, double *high)
 {
-    double least = -w->structure_radius;
-    for (size_t i = 0; i < w->n_bodies; i++) least = fw_smaller(least, w->bodies[i].x - w->bodies[i].radius);
-    return least - fw_kernel_ice_margin(k, w) - 2 * w->max_radius;
+    double r = w->structure_radius, margin = fw_kernel_ice_margin(k);
+    *from = *low = -r, *high = r;
+    for (size_t i = 0; i < w->n_bodies; i++) {
+        const fw_body *b = &w->bodies[i];
+        *from = fw_smaller(*from, b->x - b->radius);
+        *low = fw_smaller(*low, b->y - b->radius), *high = fw_larger(*high, b->y + b->radius);
+    }
+    *from -= margin, *low -= margin, *high += margin;
 }
-
-/* --- time ------------------------------------------------------------------------------------------------------------- */
 
 static fw_cluster *first_to_end(const fw_kernel *k)
 {

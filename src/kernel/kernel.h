@@ -49,9 +49,10 @@ void      fw_kernel_destroy(fw_kernel *k);
 
 /* To the next listing, at most to t_end; there (and only there) all floes stand at the same instant, w->t. t_end is where the caller
  * wants them to: no step passes it. The caller has put enough untouched ice into the world: up to
- * fw_kernel_needs_ice_from (kernel frame). Errors: FW_E_NUMERIC (non-finite state, floe inside the structure, step
+ * fw_kernel_needs_ice. Errors: FW_E_NUMERIC (non-finite state, floe inside the structure, step
  * limit) naming floe and time; FW_E_LIMIT; FW_E_NOMEM. */
 fw_status fw_kernel_step(fw_kernel *k, fw_world *w, fw_wear *wear, double t_end, fw_msg *m);
-double    fw_kernel_needs_ice_from(const fw_kernel *k, const fw_world *w);
+/* Untouched ice that the next step wants in the world: from x on, for y from low to high (kernel frame [m]). */
+void      fw_kernel_needs_ice(const fw_kernel *k, const fw_world *w, double *from, double *low, double *high);
 
 #endif

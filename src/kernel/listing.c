@@ -148,7 +148,6 @@ fw_status fw_listing_make(fw_kernel *k, double t_end, fw_msg *m)
     fw_traffic *t = &k->traffic;
     fw_world   *w = t->world;
     t->now = w->t, t->until = w->t + k->horizon;
-    k->ice_from = fw_kernel_needs_ice_from(k, w) + 2 * w->max_radius;
     FW_TRY(forget(k, m));
     FW_TRY(wake_before_structure(k, m));
     FW_TRY(fw_grow(&t->seats, &t->seat_capacity, w->n_bodies + 1, sizeof *t->seats, "candidates", m));

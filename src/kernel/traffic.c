@@ -163,6 +163,21 @@ static int by_left_edge(const void *x, const void *y)
     return (a->body > b->body) - (a->body < b->body);
 }
 
+/* A few dozen in ordinary ice, which a library sort would spend most of its time on being called for. */
+static void sort_edges(struct fw_edge *e, size_t n)
+{
+    if (n > 64) {
+        qsort(e, n, sizeof *e, by_left_edge);
+        return;
+    }
+    for (size_t i = 1; i < n; i++) {
+        struct fw_edge one = e[i];
+        size_t         k = i;
+        for (; k > 0 && by_left_edge(&one, &e[k - 1]) < 0; k--) e[k] = e[k - 1];
+        e[k] = one;
+    }
+}
+
 fw_status fw_traffic_list(fw_traffic *t, fw_msg *m)
 {
     fw_world *w = t->world;
@@ -181,7 +196,7 @@ fw_status fw_traffic_list(fw_traffic *t, fw_msg *m)
         t->edges[i] = (struct fw_edge){fw_smaller(s->x, s->x + s->vx * dt) - r, fw_larger(s->x, s->x + s->vx * dt) + r,
                                        (int32_t)i};
     }
-    if (n > 1) qsort(t->edges, n, sizeof *t->edges, by_left_edge);
+    sort_edges(t->edges, n);
     for (size_t a = 0; t->setup.has_floe_contact && a < n; a++)
         for (size_t b = a + 1; b < n && t->edges[b].left < t->edges[a].right; b++) {
             int32_t i = t->edges[a].body, j = t->edges[b].body;
@@ -202,14 +217,19 @@ fw_status fw_traffic_list_body(fw_traffic *t, int32_t i, fw_msg *m)
 
 fw_status fw_traffic_follow(fw_traffic *t, int32_t i, fw_msg *m)
 {
-    const fw_seat *s = &t->seats[i];
-    fw_path        p = fw_traffic_path(t, i);
-    double         at = p.kind == FW_PATH_CUBIC ? fw_smaller(p.t0 + p.h, t->until) : t->until;
-    fw_place       q = fw_path_at(&p, at);
-    double         off = fw_length(q.x - s->x - s->vx * (at - s->t), q.y - s->y - s->vy * (at - s->t));
+    const fw_seat    *s = &t->seats[i];
+    const fw_cluster *c = s->cluster;
     /* A free floe stays within its line's margin only when that was drawn for this very flight: it is drawn anew. */
-    if (p.kind == FW_PATH_CUBIC && off <= s->margin) return FW_OK;
-    return fw_traffic_list_body(t, i, m);
+    if (!c) return fw_traffic_list_body(t, i, m);
+    const fw_member *e = &c->members[s->member];
+    double           at = c->t1, x = e->y1[FW_X], y = e->y1[FW_Y];
+    if (at > t->until) {
+        fw_path  p = fw_traffic_path(t, i);
+        fw_place q = fw_path_at(&p, t->until);
+        at = t->until, x = q.x, y = q.y;
+    }
+    x -= s->x + s->vx * (at - s->t), y -= s->y + s->vy * (at - s->t);
+    return s->margin > 0 && x * x + y * y <= s->margin * s->margin ? FW_OK : fw_traffic_list_body(t, i, m);
 }
 
 void fw_traffic_woken(fw_traffic *t, int32_t c, int32_t j)

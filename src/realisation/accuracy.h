@@ -12,6 +12,7 @@ void fw_accuracy_setup(fw_setup *s, const fw_model *m, double speed, double velo
 double fw_accuracy_strip_width(const fw_model *m);
 double fw_accuracy_downstream(const fw_model *m);
 double fw_accuracy_warm_up(const fw_model *m, double speed);
+size_t fw_accuracy_arcs(double accuracy);
 
 /* Every choice as a line of text: name, value, how it was found (for `floewear plan`). Returns the number of lines. */
 typedef struct fw_accuracy_line {

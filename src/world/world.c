@@ -10,6 +10,7 @@ fw_status fw_world_create(fw_world **out, double structure_radius, fw_msg *m)
 {
     FW_TRY(fw_alloc(out, 1, sizeof **out, "world", m));
     (*out)->structure_radius = structure_radius;
+    (*out)->ice_from = (*out)->ice_low = -INFINITY, (*out)->ice_high = INFINITY;
     return FW_OK;
 }
 

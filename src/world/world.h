@@ -55,6 +55,8 @@ typedef struct fw_world {
     size_t      n_blocks, block_capacity;
     fw_block   *blocks;
     uint64_t    block_changes; /* blocks added or dropped so far: block numbers kept from before a change are stale */
+    /* Untouched ice is complete from X = ice_from on (ice frame), for y from ice_low to ice_high: who feeds the world says so. */
+    double      ice_from, ice_low, ice_high;
     double      structure_radius; /* [m] */
     double      max_radius;       /* of any floe seen */
     uint64_t    n_touched;
