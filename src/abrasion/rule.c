@@ -45,8 +45,8 @@ void fw_rule_init(fw_rule *r, size_t n_laws, const double *exponent)
 
 /* Force, slip and overlap of one interval as polynomials in u, its share of the length. */
 typedef struct course {
-    size_t n; /* coefficients of normal and slip */
-    double normal[FW_WEAR_STAGES], slip[FW_WEAR_STAGES], depth[4];
+    size_t n, n_depth; /* coefficients of normal and slip, and of depth */
+    double normal[FW_WEAR_STAGES], slip[FW_WEAR_STAGES], depth[FW_WEAR_STAGES];
 } course;
 
 static double value(size_t n, const double *c, double u)
@@ -86,6 +86,14 @@ static void through_stages(fw_rule *r, const fw_wear_interval *iv, course *c)
         }
         c->normal[k] = normal, c->slip[k] = slip;
     }
+    c->n_depth = iv->has_overlap ? n : 4;
+    if (iv->has_overlap) {
+        for (size_t k = 0; k < n; k++) {
+            c->depth[k] = 0;
+            for (size_t i = 0; i < n; i++) c->depth[k] += r->to_power[k][i] * iv->overlap[i];
+        }
+        return;
+    }
     double rise = iv->depth[1] - iv->depth[0], s0 = iv->length * iv->rate[0], s1 = iv->length * iv->rate[1];
     c->depth[0] = iv->depth[0], c->depth[1] = s0;
     c->depth[2] = 3 * rise - 2 * s0 - s1, c->depth[3] = s0 + s1 - 2 * rise;
@@ -95,6 +103,7 @@ static void through_ends(const fw_wear_interval *iv, course *c)
 {
     size_t last = iv->n_stages - 1;
     *c = (course){.n = 2,
+                  .n_depth = 2,
                   .normal = {iv->normal[0], iv->normal[last] - iv->normal[0]},
                   .slip = {iv->slip[0], iv->slip[last] - iv->slip[0]},
                   .depth = {iv->depth[0], iv->depth[1] - iv->depth[0]}};
@@ -156,7 +165,7 @@ static void add_piece(const fw_rule *r, const fw_wear_interval *iv, const course
         to->wide[q] = dt;
         for (size_t l = 0; l < r->n_laws; l++) to->along[l][q] = to->wall[l][q] = dt;
         to->normal[q] = value(c->n, c->normal, u), to->slip[q] = value(c->n, c->slip, u);
-        to->depth[q] = value(4, c->depth, u);
+        to->depth[q] = value(c->n_depth, c->depth, u);
     }
     if (kind == TOUCH) {
         double t_end = iv->since_touch + b * iv->length, start = fmax(0, 1 - width * iv->length / t_end);

@@ -42,6 +42,8 @@ typedef struct fw_wear_interval {
     double at[FW_WEAR_STAGES];     /* instants as shares of length, the first 0, the last 1 */
     double normal[FW_WEAR_STAGES]; /* k d + c d' with its sign: the force is its positive part [N] */
     double slip[FW_WEAR_STAGES];   /* [m/s] */
+    bool   has_overlap;            /* overlap holds the stages' overlaps: then HERMITE takes it as it takes force and slip */
+    double overlap[FW_WEAR_STAGES];
     double radius, thickness;      /* of the floe [m] */
 } fw_wear_interval;
 

@@ -448,7 +448,7 @@ fw_status fw_lone_try(fw_cluster *c, const fw_books *b, double limit, fw_msg *ms
     L->before = L->by, L->before_span = follows ? L->span : 0, L->before_end = L->length / L->span;
     L->t0 = c->t0;
     if (!(c->h < INFINITY) || p->since_touch == 0) c->h = K("H0", 1) / omega;
-    c->h = fw_smaller(c->h, set->max_step / omega);
+    c->h = fw_smaller(c->h, set->max_step / set->velocity_scale);
     /* No sliver at the end: two halves instead. */
     double h = c->h >= left ? left : c->h > 0.5 * left ? 0.5 * left : c->h, wanted = c->h, tried = h;
     for (;;) {
@@ -544,12 +544,13 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
             dashpot += weight * p->law.c * y[j].rate * y[j].rate, friction -= weight * rub * y[j].slip;
             l->peak_force = fw_larger(l->peak_force, normal);
             if (y[j].depth > 0) load += weight * normal * fabs(y[j].slip) / sqrt(y[j].depth);
-            iv.normal[j] = y[j].normal, iv.slip[j] = y[j].slip;
+            iv.normal[j] = y[j].normal, iv.slip[j] = y[j].slip, iv.overlap[j] = y[j].depth;
         }
         if (!wears) continue;
         iv.length = dt, iv.since_touch = p->since_touch + from;
         iv.impact_left = body->t_hit + 2 / omega - c->t0 - from;
         iv.depth[0] = iv.since_touch > 0 ? y[0].depth : 0, iv.depth[1] = y[PIECE - 1].depth;
+        iv.has_overlap = K("OV", 1) > 0, iv.overlap[0] = iv.depth[0];
         iv.rate[0] = y[0].rate, iv.rate[1] = y[PIECE - 1].rate;
         iv.angle[0] = angle - y[0].turn, iv.angle[1] = angle - y[PIECE - 1].turn;
         fw_wear_collect(b->wear, &iv);
