@@ -125,7 +125,7 @@ static void solve(fw_lone *L)
 
 static inline void swing_at(const fw_lone *L, const double *P, double d, double u, double x, decay w, double *depth, double *rate)
 {
-    double inv = 1 / L->span;
+    double inv = L->per_span;
     if (L->is_short) {
         double y = P[TERMS - 1], s = 0;
         for (int n = TERMS - 2; n >= 0; n--) s = s * x + y, y = y * x + P[n];
@@ -147,13 +147,13 @@ static inline void creep_at(const fw_lone *L, const double *P, double s, double 
         return;
     }
     *slip = value(P, x) + (s - P[0]) * w.slip;
-    *slid = (driven - (*slip - s)) / L->relaxation;
+    *slid = (driven - (*slip - s)) * L->per_relaxation;
 }
 
 static inline void state_at(const fw_lone *L, const fw_contact_constants *law, double t, decay w, fw_lone_state *y)
 {
     const fw_lone_state *o = &L->from;
-    double               h = L->span, x = t / h;
+    double               h = L->span, x = t * L->per_span;
     double               pushed = h * integral(L->by.push, x), driven = h * integral(L->by.drive, x);
     if (L->presses)
         swing_at(L, L->swing, o->depth, o->rate, x, w, &y->depth, &y->rate);
@@ -171,7 +171,8 @@ static inline void state_at(const fw_lone *L, const fw_contact_constants *law, d
     }
     y->along = L->carried + (1 - L->share) * driven + L->share * y->slip;
     y->reach = o->reach - (y->depth - o->depth);
-    y->turn = h * integral(L->by.orbit, x) + L->share * y->slid / y->reach;
+    y->per_reach = 1 / y->reach;
+    y->turn = h * integral(L->by.orbit, x) + L->share * y->slid * y->per_reach;
     y->normal = law->k * y->depth + law->c * y->rate;
 }
 
@@ -202,7 +203,7 @@ static inline void drag_at(double speed, double per_mass, double nx, double ny, 
 static inline void force(const fw_lone *L, double speed, double per_mass, const fw_lone_state *y, double *push, double *drive,
                          double *orbit)
 {
-    double nx, ny, out, along, inv = 1 / y->reach, w = y->along * inv;
+    double nx, ny, out, along, inv = y->per_reach, w = y->along * inv;
     normal_at(L, y->turn, &nx, &ny);
     drag_at(speed, per_mass, nx, ny, y, &out, &along);
     *push = -y->along * w - out, *drive = along + y->rate * w;
@@ -228,10 +229,10 @@ static void start(fw_lone *L, const fw_cluster *c, const fw_setup *set)
     const fw_member *m = &c->members[0];
     const fw_pair   *p = &c->pairs[0];
     const double    *v = m->y0 + FW_VX, w_slip = m->own_inv_mass + m->radius * m->turn;
-    double           x = m->y0[FW_X], y = m->y0[FW_Y], r2 = x * x + y * y, r = sqrt(r2), reach = m->radius + set->structure_radius;
+    double           x = m->y0[FW_X], y = m->y0[FW_Y], r2 = x * x + y * y, r = sqrt(r2), inv = 1 / r, reach = m->radius + set->structure_radius;
     fw_lone_state   *o = &L->from;
-    L->nx = x / r, L->ny = y / r;
-    o->reach = r, o->depth = (reach * reach - r2) / (reach + r); /* reach - r without cancellation */
+    L->nx = x * inv, L->ny = y * inv;
+    o->reach = r, o->per_reach = inv, o->depth = (reach * reach - r2) / (reach + r); /* reach - r without cancellation */
     o->rate = -(L->nx * v[0] + L->ny * v[1]);
     o->along = L->nx * v[1] - L->ny * v[0];
     o->slip = o->along - m->radius * v[2];
@@ -241,7 +242,7 @@ static void start(fw_lone *L, const fw_cluster *c, const fw_setup *set)
     L->carried = o->along - L->share * o->slip;
     L->half_damping = 0.5 * p->law.c * m->own_inv_mass, L->omega2 = p->law.k * m->own_inv_mass;
     L->split = L->half_damping * L->half_damping - L->omega2;
-    L->relaxation = p->law.ct * w_slip, L->kick = p->mu / L->share;
+    L->relaxation = p->law.ct * w_slip, L->per_relaxation = 1 / L->relaxation, L->kick = p->mu / L->share;
 }
 
 /* Which forms hold from the start on? On the edge between two, where forces are continuous, the slope decides. */
@@ -351,11 +352,11 @@ static double attempt(fw_cluster *c, const fw_books *b, double h, double *event)
     fw_member      *m = &c->members[0];
     fw_pair        *p = &c->pairs[0];
     fw_lone_state   at[3], last = {0};
-    double          g[3], f[3], o[3], speed = set->speed, drag = m->drag_per_mass, tol = K("LT", 1) * set->tolerance * set->velocity_scale;
+    double          g[3], f[3], o[3], speed = set->speed, drag = m->drag_per_mass, tol = K("LT", 2) * set->tolerance * set->velocity_scale;
     start(L, c, set);
     at[0] = L->from;
     force(L, speed, drag, &at[0], &g[0], &f[0], &o[0]);
-    L->span = h;
+    L->span = h, L->per_span = 1 / h;
     L->by = (fw_lone_forcing){{g[0]}, {f[0]}, {o[0]}};
     if (L->before_span > 0 && p->since_touch > 0) {
         expect(L, L->before.push, L->by.push);
@@ -374,7 +375,7 @@ static double attempt(fw_cluster *c, const fw_books *b, double h, double *event)
         state_at(L, &p->law, h, end, &at[2]);
         if (n) {
             change = fw_larger(fabs(at[2].rate - last.rate), fw_larger(fabs(at[2].along - last.along), fabs(at[2].slip - last.slip)));
-            if (!(change > K("CSTOP", 0.3) * tol) || n >= (int)K("SWEEPS", 3)) break;
+            if (!(change > K("CSTOP", 0.6) * tol) || n >= (int)K("SWEEPS", 3)) break;
         }
         state_at(L, &p->law, 0.5 * h, middle, &at[1]);
         for (int j = 1; j < 3; j++) force(L, speed, drag, &at[j], &g[j], &f[j], &o[j]);
@@ -385,8 +386,9 @@ static double attempt(fw_cluster *c, const fw_books *b, double h, double *event)
     b->world->ledger.force_evaluations += 1 + 2 * n;
     double en, et, ev = fabs(at[2].along - last.along);
     curvature(L, end, &en, &et);
-    en = K("EF", 1) * fabs(en) + K("CF", 0.3) * fabs(at[2].rate - last.rate), et = K("EF", 1) * fabs(et) + K("CF", 0.3) * fabs(at[2].slip - last.slip);
-    double err = fw_larger(en, fw_larger(et, K("CF", 0.3) * ev)) / tol;
+    en = K("EF", 1) * fabs(en) + K("CF", 0.6) * fabs(at[2].rate - last.rate), et = K("EF", 1) * fabs(et) + K("CF", 0.6) * fabs(at[2].slip - last.slip);
+    ev = K("CF", 0.6) * ev + K("EV", 0.016) * h * fabs(L->by.drive[2]);
+    double err = fw_larger(en, fw_larger(et, ev)) / tol;
     if (L->presses) {
         double load = 0, wrong = 0;
         for (int j = 0; j < 3; j++) {
@@ -395,11 +397,15 @@ static double attempt(fw_cluster *c, const fw_books *b, double h, double *event)
             double weight = (j == 1 ? 4.0 / 6 : 1.0 / 6) * h / sqrt(y->depth), slip = fabs(at[j].slip);
             load += weight * y->normal * slip;
             wrong += weight * (p->law.c * en * slip + y->normal * et);
+            wrong += K("AW", 0) * weight * y->normal * slip * ev / (fabs(at[j].along) + slip + DBL_MIN);
         }
-        if (p->load + load > 0) err = fw_larger(err, wrong / (p->load + load) / (K("LW", 1) * set->wear_tolerance));
+        double along = fabs(at[2].along) + 1e-6 * set->velocity_scale;
+        err = fw_larger(err, ev / along / (K("AR", 8) * set->wear_tolerance));
+        if (p->load + load > 0) err = fw_larger(err, wrong / (p->load + load) / (K("LW", 8) * set->wear_tolerance));
     }
     if (!isfinite(at[2].depth + at[2].rate + at[2].slip + at[2].along + at[2].turn)) return NAN;
     *event = first_edge(L, p, at);
+    L->end = at[2];
     return err;
 }
 
@@ -413,7 +419,10 @@ static void finish(fw_cluster *c, const fw_books *b, double length)
     double        nx, ny;
     fw_lone_state y;
     L->length = length;
-    state_at(L, &p->law, length, decay_at(L, length), &y);
+    if (length == L->span)
+        y = L->end;
+    else
+        state_at(L, &p->law, length, decay_at(L, length), &y);
     normal_at(L, y.turn, &nx, &ny);
     m->y1[FW_X] = y.reach * nx, m->y1[FW_Y] = y.reach * ny, m->y1[2] = m->y1[3] = 0;
     m->y1[FW_VX] = -y.rate * nx - y.along * ny, m->y1[FW_VY] = -y.rate * ny + y.along * nx;
@@ -447,7 +456,7 @@ fw_status fw_lone_try(fw_cluster *c, const fw_books *b, double limit, fw_msg *ms
     bool follows = L->t0 + L->length == c->t0 && L->length > 0 && p->since_touch > 0;
     L->before = L->by, L->before_span = follows ? L->span : 0, L->before_end = L->length / L->span;
     L->t0 = c->t0;
-    if (!(c->h < INFINITY) || p->since_touch == 0) c->h = K("H0", 1) / omega;
+    if (!(c->h < INFINITY) || p->since_touch == 0) c->h = K("H0", 0.5) / omega;
     c->h = fw_smaller(c->h, set->max_step / set->velocity_scale);
     /* No sliver at the end: two halves instead. */
     double h = c->h >= left ? left : c->h > 0.5 * left ? 0.5 * left : c->h, wanted = c->h, tried = h;
@@ -486,20 +495,20 @@ fw_status fw_lone_land(fw_cluster *c, const fw_books *b, double t, fw_msg *msg)
 /* Instants between which the step is smooth enough for polynomials through five points, the overlap's a cubic. */
 static int cut_up(const fw_lone *L, const fw_pair *p, double wear_tolerance, double *cut)
 {
-    double h = L->length, omega = p->law.omega, fresh = 0, piece = K("PIECE", 0.5) / omega * sqrt(sqrt(wear_tolerance / 2e-4));
+    double h = L->length, omega = p->law.omega, fresh = 0, piece = K("PIECE", 0.35) / omega * sqrt(sqrt(wear_tolerance / 2e-4));
     if (L->presses) {
         fresh = fw_smaller(h, K("FRESH", 4) / omega);
         if (!L->is_short) { /* how much of the state is still decaying */
             double d = fabs(L->from.depth - L->swing[0]) + fabs(L->from.rate - L->swing[1] / L->span) / omega, s = 0;
             if (L->rubs && L->slides == 0 && !L->is_short_slip) s = fabs(L->from.slip - L->creep[0]) / (fabs(L->creep[0]) + DBL_MIN);
-            double alive = fw_larger(d / (fabs(L->swing[0]) + DBL_MIN), s) / K("FRAC", 0.01);
+            double alive = fw_larger(d / (fabs(L->swing[0]) + DBL_MIN), s) / K("FRAC", 0.1);
             fresh = alive > 1 ? fw_smaller(fresh, log(alive) / omega + piece) : 0;
         }
     }
     int n = 0;
     cut[0] = 0;
     while (cut[n] < fresh && n < MAX_CUTS - 2) {
-        double t = cut[n] + piece + K("GRADE", 0.3) * (cut[n] + fw_smaller(p->since_touch, 3 / omega));
+        double t = cut[n] + piece + K("GRADE", 0.6) * (cut[n] + fw_smaller(p->since_touch, 3 / omega));
         cut[++n] = t + 0.4 * piece > h ? h : t;
     }
     if (cut[n] < h) cut[++n] = h;
@@ -550,7 +559,7 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
         iv.length = dt, iv.since_touch = p->since_touch + from;
         iv.impact_left = body->t_hit + 2 / omega - c->t0 - from;
         iv.depth[0] = iv.since_touch > 0 ? y[0].depth : 0, iv.depth[1] = y[PIECE - 1].depth;
-        iv.has_overlap = K("OV", 1) > 0, iv.overlap[0] = iv.depth[0];
+        iv.has_overlap = true, iv.overlap[0] = iv.depth[0];
         iv.rate[0] = y[0].rate, iv.rate[1] = y[PIECE - 1].rate;
         iv.angle[0] = angle - y[0].turn, iv.angle[1] = angle - y[PIECE - 1].turn;
         fw_wear_collect(b->wear, &iv);
