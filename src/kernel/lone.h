@@ -28,7 +28,8 @@ typedef struct fw_lone_forcing {
 
 /* A tried step: what holds from its start on, and the forcing. Enough to say where the floe is at any time in it. */
 typedef struct fw_lone {
-    double          t0, span, per_span, length; /* [s] the forcing is fitted over span; the step ends after length <= span */
+    double          t1;                    /* where the step ends */
+    double          span, per_span, length; /* [s] the forcing is fitted over span; the step ends after length <= span */
     bool            presses, rubs;         /* is there a force; can there be friction */
     double          slides;                /* sign of a slip at Coulomb's cap; 0: friction is viscous */
     bool            is_short, is_short_slip; /* power series instead of closed forms */
@@ -40,7 +41,7 @@ typedef struct fw_lone {
     fw_lone_forcing by;
     double          swing[FW_LONE_TERMS], creep[FW_LONE_TERMS]; /* particular solutions of d and s, or their series */
     fw_lone_forcing before; /* of the step before, in the same span: what to expect of this one */
-    double          before_end, before_span, before_length;
+    double          before_end, before_span; /* its end as a share of its span; 0: nothing is known */
 } fw_lone;
 
 bool fw_lone_is(const struct fw_cluster *c, const struct fw_books *b);
