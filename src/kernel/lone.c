@@ -38,14 +38,15 @@ static const double TINY = 1e-10;
 /* Step control, in the units that the tolerances of the method of stage.c are given in. What they mean there leaves more error here: 1000
  * random hits at 1 % (0.1 %), 99 % are within 1.5e-3 (9e-5) in depth and 8e-4 (9e-5) in depth x wall, the worst within 2.1e-3 (1.3e-4), with
  * 79 (151) evaluations. Twice these numbers gives no more than the same wear, but the energy balance at 1 % would leave 1 %. */
-static const double OF_VELOCITY = 2, OF_WEAR = 8;
+static const double OF_VELOCITY = 4, OF_WEAR = 16;
 static const double OF_WAY = 20;      /* relative error of v, per wear tolerance: a floe near the stagnation point doubles v every second */
-static const double SWEPT = 0.6;      /* sweeps end when they change less than this share of the tolerance */
+static const double SWEPT = 0.3;      /* sweeps end when they change less than this share of the tolerance */
 static const double LEFT = 0.6;       /* of the last sweep's change: what further sweeps might do */
 static const double BULGE = 0.016;    /* largest integral of the second Legendre polynomial on [0, x] */
 static const double FIRST_STEP = 0.5; /* after a touch, in 1/w: nothing is known of the forcing yet */
 /* Pieces in which a step's wear is collected. */
 static const double FIRST_PIECE = 0.35, PIECE_GROWTH = 0.6, LONGEST_FRESH = 4; /* in 1/w; per time since the touch; 1/w */
+static const double SLIDING = 2;  /* such pieces are longer: no slip decays in them */
 static const double FRESH = 0.1; /* decaying part of depth or slip, over the rest, from which on polynomials follow it in one piece */
 
 bool fw_lone_is(const fw_cluster *c, const fw_books *b)
@@ -516,6 +517,7 @@ fw_status fw_lone_land(fw_cluster *c, const fw_books *b, double t, fw_msg *msg)
 static int cut_up(const fw_lone *L, const fw_pair *p, double wear_tolerance, double *cut)
 {
     double h = L->length, omega = p->law.omega, fresh = 0, piece = FIRST_PIECE / omega * sqrt(sqrt(wear_tolerance / 2e-4));
+    if (L->slides != 0 || !L->rubs) piece *= SLIDING;
     if (L->presses) {
         fresh = fw_smaller(h, LONGEST_FRESH / omega);
         if (!L->is_short) { /* how much of the state is still decaying */
