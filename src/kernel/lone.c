@@ -513,8 +513,9 @@ fw_status fw_lone_land(fw_cluster *c, const fw_books *b, double t, fw_msg *msg)
 
 /* --- books and wear --------------------------------------------------------------------------------------------------- */
 
-/* Instants between which the step is smooth enough for polynomials through five points, the overlap's a cubic. */
-static int cut_up(const fw_lone *L, const fw_pair *p, double wear_tolerance, double *cut)
+/* Instants between which the step is smooth enough for polynomials through five points. One of them is the end of the hit, so that what
+ * counts as impact ends there. */
+static int cut_up(const fw_lone *L, const fw_pair *p, double wear_tolerance, double impact_left, double *cut)
 {
     double h = L->length, omega = p->law.omega, fresh = 0, piece = FIRST_PIECE / omega * sqrt(sqrt(wear_tolerance / 2e-4));
     if (L->slides != 0 || !L->rubs) piece *= SLIDING;
@@ -529,11 +530,13 @@ static int cut_up(const fw_lone *L, const fw_pair *p, double wear_tolerance, dou
     }
     int n = 0;
     cut[0] = 0;
-    while (cut[n] < fresh && n < MAX_CUTS - 2) {
+    while (cut[n] < h) {
+        double end = cut[n] < impact_left && impact_left < h ? impact_left : h;
         double t = cut[n] + piece + PIECE_GROWTH * (cut[n] + fw_smaller(p->since_touch, 3 / omega));
-        cut[++n] = t + 0.4 * piece > h ? h : t;
+        bool   is_last = !(cut[n] < fresh) || t + 0.4 * piece > end || n + 3 >= MAX_CUTS;
+        cut[n + 1] = is_last ? end : t;
+        n++;
     }
-    if (cut[n] < h) cut[++n] = h;
     return n;
 }
 
@@ -548,7 +551,8 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
     fw_ledger          *l = &b->world->ledger;
     double              h = L->length, mass = 1 / m->own_inv_mass, omega = p->law.omega, cut[MAX_CUTS];
     double              drag_work = 0, dashpot = 0, friction = 0, jx = 0, jy = 0, load = 0;
-    int                 n = cut_up(L, p, set->wear_tolerance, cut);
+    double              impact_left = body->t_hit + 2 / omega - c->t0;
+    int                 n = cut_up(L, p, set->wear_tolerance, impact_left, cut);
     bool                wears = L->presses && b->wear->is_open;
     double              angle = wears ? fw_ring_angle(m->y0[FW_X], m->y0[FW_Y]) : 0;
     fw_wear_interval    iv = {.radius = m->radius, .thickness = body->thickness, .n_stages = PIECE};
@@ -579,7 +583,7 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
         }
         if (!wears) continue;
         iv.length = dt, iv.since_touch = p->since_touch + from;
-        iv.impact_left = body->t_hit + 2 / omega - c->t0 - from;
+        iv.impact_left = impact_left - from;
         iv.depth[0] = iv.since_touch > 0 ? y[0].depth : 0, iv.depth[1] = y[PIECE - 1].depth;
         iv.has_overlap = true, iv.overlap[0] = iv.depth[0];
         iv.rate[0] = y[0].rate, iv.rate[1] = y[PIECE - 1].rate;
