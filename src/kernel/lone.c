@@ -39,15 +39,22 @@ static const double TINY = 1e-10;
  * random hits at 1 % (0.1 %), 99 % are within 1.5e-3 (9e-5) in depth and 8e-4 (9e-5) in depth x wall, the worst within 2.1e-3 (1.3e-4), with
  * 79 (151) evaluations. Twice these numbers gives no more than the same wear, but the energy balance at 1 % would leave 1 %. */
 static const double OF_VELOCITY = 4, OF_WEAR = 16;
-static const double OF_WAY = 20;      /* relative error of v, per wear tolerance: a floe near the stagnation point doubles v every second */
+static const double OF_WAY =
+    20; /* relative error of v, per wear tolerance: a floe near the stagnation point doubles v every second */
 static const double SWEPT = 0.3;      /* sweeps end when they change less than this share of the tolerance */
 static const double LEFT = 0.6;       /* of the last sweep's change: what further sweeps might do */
 static const double BULGE = 0.016;    /* largest integral of the second Legendre polynomial on [0, x] */
 static const double FIRST_STEP = 0.5; /* after a touch, in 1/w: nothing is known of the forcing yet */
+static const double RINGING = 0.2;    /* share of the force that has to decay yet, from which on it is watched */
+static const double WATCH = 0.5;      /* in 1/w: how often a force that may dip below zero is looked at */
+static const double LONGEST_RINGING =
+    8; /* step while it may, in 1/w; and of any underdamped contact: it rings for long */
 /* Pieces in which a step's wear is collected. */
-static const double FIRST_PIECE = 0.35, PIECE_GROWTH = 0.6, LONGEST_FRESH = 4; /* in 1/w; per time since the touch; 1/w */
-static const double SLIDING = 2;  /* such pieces are longer: no slip decays in them */
-static const double FRESH = 0.1; /* decaying part of depth or slip, over the rest, from which on polynomials follow it in one piece */
+static const double FIRST_PIECE = 0.35, PIECE_GROWTH = 0.6,
+                    LONGEST_FRESH = 4; /* in 1/w; per time since the touch; 1/w */
+static const double SLIDING = 2;       /* such pieces are longer: no slip decays in them */
+static const double FRESH =
+    0.1; /* decaying part of depth or slip, over the rest, from which on polynomials follow it in one piece */
 
 bool fw_lone_is(const fw_cluster *c, const fw_books *b)
 {
@@ -89,7 +96,10 @@ static inline decay later(const fw_lone *L, decay a, decay b) /* at the sum of t
 }
 
 static inline double value(const double *c, double x) { return c[0] + x * (c[1] + x * c[2]); }
-static inline double integral(const double *c, double x) { return x * (c[0] + x * (0.5 * c[1] + x * (1.0 / 3) * c[2])); }
+static inline double integral(const double *c, double x)
+{
+    return x * (c[0] + x * (0.5 * c[1] + x * (1.0 / 3) * c[2]));
+}
 static inline double integral_twice(const double *c, double x)
 {
     return x * x * (0.5 * c[0] + x * ((1.0 / 6) * c[1] + x * (1.0 / 12) * c[2]));
@@ -132,7 +142,8 @@ static void solve(fw_lone *L)
     if (L->rubs && L->slides == 0) solve_creep(L, L->by.drive, L->from.slip, L->creep);
 }
 
-static inline void swing_at(const fw_lone *L, const double *P, double d, double u, double x, decay w, double *depth, double *rate)
+static inline void swing_at(const fw_lone *L, const double *P, double d, double u, double x, decay w, double *depth,
+                            double *rate)
 {
     double inv = L->per_span;
     if (L->is_short) {
@@ -201,7 +212,8 @@ static inline void normal_at(const fw_lone *L, double turn, double *nx, double *
 }
 
 /* Drag per mass, outward and along the wall. */
-static inline void drag_at(double speed, double per_mass, double nx, double ny, const fw_lone_state *y, double *out, double *along)
+static inline void drag_at(double speed, double per_mass, double nx, double ny, const fw_lone_state *y, double *out,
+                           double *along)
 {
     double wn = speed * nx + y->rate, wt = -speed * ny - y->along, rate = per_mass * sqrt(wn * wn + wt * wt);
     *out = rate * wn, *along = rate * wt;
@@ -209,8 +221,8 @@ static inline void drag_at(double speed, double per_mass, double nx, double ny, 
 
 /* Angle' = p/r + a s/r, and s may have decayed within a tenth of the step: with S its integral a s/r = (a S/r)' - a S u/r^2, so
  * orbit = p/r - a S u/r^2 is slow again. */
-static inline void force(const fw_lone *L, double speed, double per_mass, const fw_lone_state *y, double *push, double *drive,
-                         double *orbit)
+static inline void force(const fw_lone *L, double speed, double per_mass, const fw_lone_state *y, double *push,
+                         double *drive, double *orbit)
 {
     double nx, ny, out, along, inv = y->per_reach, w = y->along * inv;
     normal_at(L, y->turn, &nx, &ny);
@@ -239,10 +251,12 @@ static void start(fw_lone *L, const fw_cluster *c, const fw_setup *set)
     const fw_member *m = &c->members[0];
     const fw_pair   *p = &c->pairs[0];
     const double    *v = m->y0 + FW_VX, w_slip = m->own_inv_mass + m->radius * m->turn;
-    double           x = m->y0[FW_X], y = m->y0[FW_Y], r2 = x * x + y * y, r = sqrt(r2), inv = 1 / r, reach = m->radius + set->structure_radius;
-    fw_lone_state   *o = &L->from;
+    double           x = m->y0[FW_X], y = m->y0[FW_Y], r2 = x * x + y * y, r = sqrt(r2), inv = 1 / r,
+           reach = m->radius + set->structure_radius;
+    fw_lone_state *o = &L->from;
     L->nx = x * inv, L->ny = y * inv;
-    o->reach = r, o->per_reach = inv, o->depth = (reach * reach - r2) / (reach + r); /* reach - r without cancellation */
+    o->reach = r, o->per_reach = inv,
+    o->depth = (reach * reach - r2) / (reach + r); /* reach - r without cancellation */
     o->rate = -(L->nx * v[0] + L->ny * v[1]);
     o->along = L->nx * v[1] - L->ny * v[0];
     o->slip = o->along - m->radius * v[2];
@@ -268,7 +282,8 @@ static void choose(fw_lone *L, const fw_pair *p, double inv_mass, double scale)
     double n = fw_larger(o->normal, 0), over = law->ct * fabs(o->slip) - p->mu * n;
     double sign = o->slip > 0 ? 1 : o->slip < 0 ? -1 : f > 0 ? 1 : -1;
     if (fabs(over) <= tiny)
-        over = law->ct * sign * (f - L->relaxation * o->slip) - p->mu * (law->k * o->rate + law->c * (g - n * inv_mass));
+        over = law->ct * sign * (f - L->relaxation * o->slip) -
+               p->mu * (law->k * o->rate + law->c * (g - n * inv_mass));
     if (over > 0) L->slides = sign;
 }
 
@@ -319,14 +334,30 @@ static double edge(const fw_lone *L, const fw_pair *p, int i, double a, double f
     return b;
 }
 
+/* May the force dip below zero and come back? A bound of its decaying part against the force at the start. */
+static inline bool rings(const fw_lone *L, const fw_pair *p)
+{
+    if (!L->presses || L->is_short) return false;
+    double A = L->from.depth - L->swing[0], B = L->from.rate - L->swing[1] * L->per_span, omega = p->law.omega;
+    return 2 * (p->law.k + p->law.c * omega) * (fabs(A) + fabs(B) / omega) > RINGING * L->from.normal;
+}
+
 /* First edge within the span; INFINITY: none. at: states at start, middle and end. */
 static double first_edge(const fw_lone *L, const fw_pair *p, const fw_lone_state *at)
 {
-    for (int j = 1; j < 3; j++) {
-        double first = INFINITY;
+    int           n = rings(L, p) ? (int)fw_smaller(20, 2 + L->span * p->law.omega / WATCH) : 2;
+    decay         w = {1, 0, 1}, step = {0, 0, 0};
+    fw_lone_state y[2] = {at[0]};
+    if (n > 2) step = decay_at(L, L->span / n);
+    for (int j = 1; j <= n; j++, y[0] = y[1]) {
+        double from = L->span * (j - 1) / n, to = L->span * j / n, first = INFINITY;
+        if (n > 2)
+            w = later(L, w, step), state_at(L, &p->law, to, w, &y[1]);
+        else
+            y[1] = at[j];
         for (int i = 0; i < 2; i++) {
-            double now = margin(L, p, &at[j], i), before = margin(L, p, &at[j - 1], i);
-            if (now < 0) first = fw_smaller(first, edge(L, p, i, 0.5 * (j - 1) * L->span, before, 0.5 * j * L->span, now));
+            double now = margin(L, p, &y[1], i);
+            if (now < 0) first = fw_smaller(first, edge(L, p, i, from, margin(L, p, &y[0], i), to, now));
         }
         if (first < INFINITY) return first;
     }
@@ -357,8 +388,8 @@ static void curvature(const fw_lone *L, decay end, double *rate, double *slip)
 
 /* Local error over what is tolerated, of velocity and of the touch's wear (wear_error in cluster.c has the reasons). last: the end as the
  * sweep before had it. */
-static double error_of(const fw_lone *L, const fw_pair *p, const fw_setup *set, const fw_lone_state *at, const fw_lone_state *last,
-                       decay end)
+static double error_of(const fw_lone *L, const fw_pair *p, const fw_setup *set, const fw_lone_state *at,
+                       const fw_lone_state *last, decay end)
 {
     double h = L->span, en, et, ev = LEFT * fabs(at[2].along - last->along) + BULGE * h * fabs(L->by.drive[2]);
     curvature(L, end, &en, &et);
@@ -426,7 +457,8 @@ static double attempt(fw_cluster *c, const fw_books *b, double h, double *event)
     /* nobody gets here but by a step much too long, and behind the centre the forms would go on */
     if (!(at[2].reach > 0.5 * set->structure_radius && isfinite(at[2].rate + at[2].slip + at[2].turn))) return NAN;
     *event = first_edge(L, p, at);
-    return error_of(L, p, set, at, &last, end);
+    double err = error_of(L, p, set, at, &last, end);
+    return rings(L, p) && h * p->law.omega > 1.01 * LONGEST_RINGING ? fw_larger(err, 2) : err;
 }
 
 /* The tried step ends after `length`: what the rest of the kernel needs to know of it. */
@@ -453,7 +485,8 @@ static void finish(fw_cluster *c, const fw_books *b, double length)
     p->normal[0] = L->presses ? fw_larger(0, L->from.normal) : 0;
     p->normal[last] = L->presses ? fw_larger(0, y.normal) : 0;
     p->dir[last][0] = nx, p->dir[last][1] = ny;
-    if (!L->presses && y.rate < 0 && y.depth <= 1e-12 * m->radius) /* the rims part: let_go() asks for less than nothing */
+    if (!L->presses && y.rate < 0 &&
+        y.depth <= 1e-12 * m->radius) /* the rims part: let_go() asks for less than nothing */
         p->depth[last] = fw_smaller(y.depth, -DBL_MIN);
 }
 
@@ -480,6 +513,7 @@ fw_status fw_lone_try(fw_cluster *c, const fw_books *b, double limit, fw_msg *ms
     begin(c, b);
     if (!(c->h < INFINITY) || p->since_touch == 0) c->h = FIRST_STEP / omega;
     c->h = fw_smaller(c->h, set->max_step / set->velocity_scale);
+    if (L->half_damping < 0.5 * omega) c->h = fw_smaller(c->h, LONGEST_RINGING / omega);
     /* No sliver at the end: two halves instead. */
     double h = c->h >= left ? left : c->h > 0.5 * left ? 0.5 * left : c->h, wanted = c->h, tried = h;
     for (;;) {
@@ -517,14 +551,16 @@ fw_status fw_lone_land(fw_cluster *c, const fw_books *b, double t, fw_msg *msg)
  * counts as impact ends there. */
 static int cut_up(const fw_lone *L, const fw_pair *p, double wear_tolerance, double impact_left, double *cut)
 {
-    double h = L->length, omega = p->law.omega, fresh = 0, piece = FIRST_PIECE / omega * sqrt(sqrt(wear_tolerance / 2e-4));
+    double h = L->length, omega = p->law.omega, finer = sqrt(sqrt(wear_tolerance / 2e-4)), fresh = 0,
+           piece = FIRST_PIECE / omega * finer;
     if (L->slides != 0 || !L->rubs) piece *= SLIDING;
     if (L->presses) {
         fresh = fw_smaller(h, LONGEST_FRESH / omega);
         if (!L->is_short) { /* how much of the state is still decaying */
             double d = fabs(L->from.depth - L->swing[0]) + fabs(L->from.rate - L->swing[1] / L->span) / omega, s = 0;
-            if (L->rubs && L->slides == 0 && !L->is_short_slip) s = fabs(L->from.slip - L->creep[0]) / (fabs(L->creep[0]) + DBL_MIN);
-            double alive = fw_larger(d / (fabs(L->swing[0]) + DBL_MIN), s) / FRESH;
+            if (L->rubs && L->slides == 0 && !L->is_short_slip)
+                s = fabs(L->from.slip - L->creep[0]) / (fabs(L->creep[0]) + DBL_MIN);
+            double alive = fw_larger(d / (fabs(L->swing[0]) + DBL_MIN), s) / (FRESH * finer * finer);
             fresh = alive > 1 ? fw_smaller(fresh, log(alive) / omega + piece) : 0;
         }
     }
@@ -613,7 +649,7 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
     }
     double size = fw_length(jx, jy) + fw_length(m->y1[FW_VX] - m->y0[FW_VX] - jx, m->y1[FW_VY] - m->y0[FW_VY] - jy);
     l->kinetic_change += work, l->impulse_work += work;
-    l->impulse_size +=
-        mass * size * 0.5 * (fw_length(m->y0[FW_VX], m->y0[FW_VY]) + fw_length(m->y1[FW_VX], m->y1[FW_VY]));
+    l->impulse_size += mass * size * 0.5 *
+                       (fw_length(m->y0[FW_VX], m->y0[FW_VY]) + fw_length(m->y1[FW_VX], m->y1[FW_VY]));
     l->momentum_size += mass * size;
 }
