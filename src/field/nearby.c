@@ -5,6 +5,8 @@
 
 #include "base/memory.h"
 
+static double larger(double a, double b) { return a > b ? a : b; }
+
 static void clear(fw_nearby_some *s)
 {
     for (int i = 0; i < FW_NEARBY_SOME; i++) s->x[i] = INFINITY;
@@ -67,12 +69,12 @@ fw_status fw_nearby_add(fw_nearby *b, double x, double y, double r, fw_msg *m)
     double  reach = (r + b->r_most) * (1.0 + 1e-9) + 2e-6, at_x = x - b->x0, at_y = y - b->y0;
     double  low = (at_y - reach) * b->per_y, high = (at_y + reach) * b->per_y;
     bool    wraps = b->height < INFINITY;
-    int32_t begin = floor_of(wraps ? low : fmax(low, 0.0)), end = floor_of(wraps ? high : fmin(high, b->ny - 1.0)) + 1;
+    int32_t begin = floor_of(wraps ? low : larger(low, 0.0)), end = floor_of(wraps || high < b->ny ? high : b->ny - 1.0) + 1;
     bool    is_all_round = wraps && end - begin > b->ny; /* as tall as the box: every row, and each of them once */
     if (is_all_round) begin = 0, end = b->ny;
     for (int32_t iy = begin; iy < end; iy++) {
-        double  away = fmax(0.0, fmax(iy * b->cell_y - at_y, at_y - (iy + 1) * b->cell_y));
-        double  half = is_all_round ? reach : sqrt(fmax(0.0, reach * reach - away * away));
+        double  away = larger(0.0, larger(iy * b->cell_y - at_y, at_y - (iy + 1) * b->cell_y));
+        double  half = is_all_round ? reach : sqrt(larger(0.0, reach * reach - away * away));
         double  left = (at_x - half) * b->per_x, right = (at_x + half) * b->per_x;
         int32_t row = (iy < 0 ? iy + b->ny : iy >= b->ny ? iy - b->ny : iy) * b->nx;
         if (right < 0.0 || left >= b->nx) continue;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "field/abreast.h"
 
 /* Tuned on the five-class mix (0.5 to 1.3 m) and on {0.3 m: 2, 0.5 m: 1}; ms per tile at 60 / 65 %:
  * tries 20: 0.32 / 0.63, 50: 0.26 / 0.65, 100: 0.22 / 0.63, 200: 0.22 / 0.48, 500: 0.22-0.29 / 0.55-0.7. At 200 tries
@@ -12,7 +13,7 @@
  * halves the pushes and still costs more. With these numbers the mixes pack to 80 %, one class of equal floes (h = 8.04
  * m) to 75 %. */
 enum {
-    ABREAST = 8,        /* discs compared at once: a vector register of doubles, or some of them */
+    ABREAST = 8,        /* discs compared before the answer is looked at */
     PLAIN_TRIES = 24,      /* of a call, each against every disc, before lists of the nearby ones pay */
     MAX_TRIES = 200,       /* refusals before a floe is put down crowded */
     CROWDED_PLACES = 20,   /* places looked at then */
@@ -120,19 +121,11 @@ static double across(const fw_packing_box *b, double dy)
     return dy > 0.5 * height ? dy - height : dy < -0.5 * height ? dy + height : dy;
 }
 
-/* Does a disc here come nearer than GAP to one of discs [begin, end), whole rows of them? */
-static bool is_taken_by(const fw_packing *p, size_t begin, size_t end, double x, double y, double r)
+/* Is the place taken by one of discs [begin, end), whole rows of them? */
+static bool is_taken_by(const fw_packing *p, size_t begin, size_t end, fw_place at)
 {
-    double height = p->height, half = 0.5 * height;
     for (size_t k = begin; k < end; k += ABREAST) {
-        const double *px = p->x + k, *py = p->y + k, *pr = p->r + k;
-        int           is_hit = 0;
-        for (int i = 0; i < ABREAST; i++) {
-            double dx = x - px[i], dy = y - py[i], s = r + pr[i] + GAP;
-            dy = dy > half ? dy - height : dy < -half ? dy + height : dy; /* as in across() */
-            is_hit |= dx * dx + dy * dy < s * s;
-        }
-        if (is_hit) return true;
+        if (fw_abreast_is_taken(p->x + k, p->y + k, p->r + k, ABREAST, at)) return true;
     }
     return false;
 }
@@ -142,7 +135,7 @@ static fw_status build_nearby(fw_packing *p, size_t n, const double *r, fw_msg *
 {
     const fw_packing_box *b = &p->box;
     double                largest = 0.0;
-    for (size_t k = 0; k < n; k++) largest = fmax(largest, r[k]);
+    for (size_t k = 0; k < n; k++) largest = r[k] > largest ? r[k] : largest;
     FW_TRY(fw_nearby_reset(&p->nearby, b->x0, b->x1, b->y0, b->y1, b->wraps_y, p->cell, largest + GAP, m));
     for (size_t i = 0; i < p->n_own; i++) FW_TRY(fw_nearby_add(&p->nearby, p->x[i], p->y[i], p->r[i], m));
     for (size_t i = p->n_most; i < p->n_discs; i++) FW_TRY(fw_nearby_add(&p->nearby, p->x[i], p->y[i], p->r[i], m));
@@ -312,9 +305,9 @@ static fw_status relax(fw_packing *p, ring *q, fw_uniforms *random, size_t *n_le
 
 fw_status fw_packing_place(fw_packing *p, size_t n, const double *r, fw_uniforms *random, size_t *n_left, fw_msg *m)
 {
-    ring   q = {.capacity = p->n_most};
-    int    n_plain = 0;
-    bool   has_nearby = false;
+    ring q = {.capacity = p->n_most};
+    int  n_plain = 0;
+    bool has_nearby = false;
     *n_left = 0;
     for (size_t k = 0; k < n; k++) {
         double x = 0.0, y = 0.0;
@@ -322,16 +315,14 @@ fw_status fw_packing_place(fw_packing *p, size_t n, const double *r, fw_uniforms
         bool   is_refused = true;
         while (is_refused && tries < MAX_TRIES) {
             random_place(p, random, &x, &y);
-            if (has_nearby) {
-                is_refused = fw_nearby_is_taken(&p->nearby, x, y, r[k], GAP);
-            } else if (n_plain++ < PLAIN_TRIES) {
-                is_refused = is_taken_by(p, 0, whole_rows(p->n_own), x, y, r[k]) ||
-                             is_taken_by(p, p->n_most, whole_rows(p->n_discs), x, y, r[k]);
-            } else {
+            fw_place at = {.x = x, .y = y, .r = r[k], .gap = GAP, .height = p->height};
+            if (!has_nearby && n_plain++ == PLAIN_TRIES) {
                 FW_TRY(build_nearby(p, n - k, r + k, m));
                 has_nearby = true;
-                is_refused = fw_nearby_is_taken(&p->nearby, x, y, r[k], GAP);
             }
+            is_refused = has_nearby ? fw_nearby_is_taken(&p->nearby, at)
+                                    : is_taken_by(p, 0, whole_rows(p->n_own), at) ||
+                                          is_taken_by(p, p->n_most, whole_rows(p->n_discs), at);
             tries += is_refused;
         }
         p->cost.n_tries += (uint64_t)tries + 1;
