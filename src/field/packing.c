@@ -14,7 +14,7 @@
  * m) to 75 %. */
 enum {
     ABREAST = 8,        /* discs compared before the answer is looked at */
-    PLAIN_TRIES = 24,      /* of a call, each against every disc, before lists of the nearby ones pay */
+    PLAIN_TRIES = 96,      /* of a call, each against every disc, before lists of the nearby ones pay */
     MAX_TRIES = 200,       /* refusals before a floe is put down crowded */
     CROWDED_PLACES = 20,   /* places looked at then */
     MAX_OVERLAPS = 64,     /* overlaps of one floe handled at once; more are seen when it is looked at again */
