@@ -61,19 +61,14 @@ uint32_t fw_random_u32(fw_random *r)
     return r->block[r->n_used++];
 }
 
-static double to_uniform(uint32_t w0, uint32_t w1)
-{
-    /* 52 bits: with the half added the numerator has 53, so no value rounds to 1 */
-    uint64_t k = ((uint64_t)w1 << 32 | w0) >> 12;
-
-    return ((double)(int64_t)k + 0.5) * 0x1p-52;
-}
+/* Of 64 bits 52: with the half added the numerator has 53, so no value rounds to 1. */
+static double to_uniform(uint64_t bits) { return ((double)(int64_t)(bits >> 12) + 0.5) * 0x1p-52; }
 
 double fw_random_uniform(fw_random *r)
 {
-    uint32_t w0 = fw_random_u32(r), w1 = fw_random_u32(r);
+    uint64_t w0 = fw_random_u32(r), w1 = fw_random_u32(r);
 
-    return to_uniform(w0, w1);
+    return to_uniform(w1 << 32 | w0);
 }
 
 void fw_uniforms_stream(fw_uniforms *u, uint64_t seed, fw_purpose purpose, uint64_t id, uint64_t part)
@@ -87,32 +82,32 @@ void fw_uniforms_stream(fw_uniforms *u, uint64_t seed, fw_purpose purpose, uint6
 }
 
 /* Eight blocks side by side, so that their multiplications share vector instructions: one block alone is a chain of ten
- * rounds that wait for each other. */
+ * rounds that wait for each other. Words of 32 bits are held in 64, as wide as the products: no lane changes its width. */
 void fw_uniforms_refill(fw_uniforms *u)
 {
     enum { N = FW_UNIFORMS_READY / 2 };
-    uint32_t c0[N], c1[N], c2[N], c3[N], k0 = u->key[0], k1 = u->key[1];
-    for (uint32_t i = 0; i < N; i++) {
-        uint64_t n = u->n_blocks + i;
-        c0[i] = (uint32_t)n;
-        c1[i] = (uint32_t)(n >> 32);
+    uint64_t c0[N], c1[N], c2[N], c3[N];
+    uint32_t k0 = u->key[0], k1 = u->key[1];
+    for (uint64_t i = 0; i < N; i++) {
+        c0[i] = low(u->n_blocks + i);
+        c1[i] = high(u->n_blocks + i);
         c2[i] = u->tail[0];
         c3[i] = u->tail[1];
     }
     for (int round = 0; round < 10; round++) {
         for (int i = 0; i < N; i++) {
-            uint64_t p0 = (uint64_t)PHILOX_M0 * c0[i], p1 = (uint64_t)PHILOX_M1 * c2[i];
-            c0[i] = (uint32_t)(p1 >> 32) ^ c1[i] ^ k0;
-            c1[i] = (uint32_t)p1;
-            c2[i] = (uint32_t)(p0 >> 32) ^ c3[i] ^ k1;
-            c3[i] = (uint32_t)p0;
+            uint64_t p0 = PHILOX_M0 * c0[i], p1 = PHILOX_M1 * c2[i];
+            c0[i] = (p1 >> 32) ^ c1[i] ^ k0;
+            c1[i] = low(p1);
+            c2[i] = (p0 >> 32) ^ c3[i] ^ k1;
+            c3[i] = low(p0);
         }
         k0 += PHILOX_W0;
         k1 += PHILOX_W1;
     }
     for (int i = 0; i < N; i++) {
-        u->ready[2 * i] = to_uniform(c0[i], c1[i]);
-        u->ready[2 * i + 1] = to_uniform(c2[i], c3[i]);
+        u->ready[2 * i] = to_uniform(c1[i] << 32 | c0[i]);
+        u->ready[2 * i + 1] = to_uniform(c3[i] << 32 | c2[i]);
     }
     u->n_blocks += N;
     u->n_used = 0;
