@@ -14,7 +14,7 @@
  * m) to 75 %. */
 enum {
     ABREAST = 8,        /* discs compared before the answer is looked at */
-    PLAIN_TRIES = 96,      /* of a call, each against every disc, before lists of the nearby ones pay */
+    PLAIN_TRIES = 128,     /* of a call, each against every disc: about what lists of the nearby ones cost to build */
     MAX_TRIES = 200,       /* refusals before a floe is put down crowded */
     CROWDED_PLACES = 20,   /* places looked at then */
     MAX_OVERLAPS = 64,     /* overlaps of one floe handled at once; more are seen when it is looked at again */
@@ -306,7 +306,7 @@ static fw_status relax(fw_packing *p, ring *q, fw_uniforms *random, size_t *n_le
 fw_status fw_packing_place(fw_packing *p, size_t n, const double *r, fw_uniforms *random, size_t *n_left, fw_msg *m)
 {
     ring q = {.capacity = p->n_most};
-    int  n_plain = 0;
+    int  n_plain = n < PLAIN_TRIES ? 0 : PLAIN_TRIES; /* so many floes need the lists anyway */
     bool has_nearby = false;
     *n_left = 0;
     for (size_t k = 0; k < n; k++) {
