@@ -1,5 +1,5 @@
-/* Does one disc meet any of a few others? All of them are compared, as many at a time as a register holds, and there is one
- * branch at the end: most places are refused or free by chance, and a branch per disc would be guessed wrong as often.
+/* Does one disc meet any of a few others? As many are compared at a time as a register holds, and the answer is looked at
+ * once per stretch of them: where it comes from is chance, and a branch per disc would be guessed wrong as often.
  *
  * The compiler's own vectors, because it does not find them in loops this short; the arithmetic is that of single
  * numbers, operation by operation. */
@@ -7,9 +7,14 @@
 #define FW_FIELD_ABREAST_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
-#ifdef __AVX__
+enum { FW_ABREAST = 8 }; /* discs come in multiples of it, filled up with discs nowhere: x = INFINITY */
+
+#if defined(__AVX512F__)
+enum { FW_LANES = 8 };
+#elif defined(__AVX__)
 enum { FW_LANES = 4 };
 #else
 enum { FW_LANES = 2 };
@@ -22,21 +27,41 @@ typedef struct fw_place {
     double height;       /* after which places repeat in y, infinite when they do not [m] */
 } fw_place;
 
-/* Discs [0, n) of x, y, r; n is a constant and a multiple of 4. A disc nowhere has x = INFINITY. */
-static inline bool fw_abreast_is_taken(const double *x, const double *y, const double *r, int n, fw_place at)
+static inline bool fw_lanes_any(fw_lane_bits bits)
 {
-    fw_lane_bits is_taken = {0}, height = (fw_lane_bits)((fw_lanes){0} + at.height);
-    double       half = 0.5 * at.height;
-    for (int i = 0; i < n; i += FW_LANES) {
-        fw_lanes dx = at.x - *(const fw_lanes *)(x + i), dy = at.y - *(const fw_lanes *)(y + i);
-        fw_lanes limit = at.r + *(const fw_lanes *)(r + i) + at.gap;
-        /* one height less where dy > half of it, one more where dy < -half; else no change */
-        dy += (fw_lanes)(height & (dy < -half)) - (fw_lanes)(height & (dy > half));
-        is_taken |= dx * dx + dy * dy < limit * limit;
+    /* halves upon halves: lane by lane takes as long as the comparison itself */
+    typedef int64_t two __attribute__((vector_size(16), aligned(8), may_alias));
+#if defined(__AVX512F__)
+    typedef int64_t four __attribute__((vector_size(32), aligned(8), may_alias));
+    four            all4 = *(four *)&bits | *((four *)&bits + 1);
+    two             all2 = *(two *)&all4 | *((two *)&all4 + 1);
+#elif defined(__AVX__)
+    two all2 = *(two *)&bits | *((two *)&bits + 1);
+#else
+    two all2 = bits;
+#endif
+    return (all2[0] | all2[1]) != 0;
+}
+
+/* Is the place taken by one of discs [0, n) of x, y, r? n is a multiple of FW_ABREAST. */
+static inline bool fw_abreast_is_taken(const double *x, const double *y, const double *r, size_t n, fw_place at)
+{
+    const size_t       stretch = 8 * FW_LANES; /* looked at together */
+    const fw_lane_bits height = (fw_lane_bits)((fw_lanes){0} + at.height);
+    const double       half = 0.5 * at.height;
+    for (size_t begin = 0; begin < n; begin += stretch) {
+        fw_lane_bits is_taken = {0};
+        size_t       end = n - begin < stretch ? n : begin + stretch;
+        for (size_t i = begin; i < end; i += FW_LANES) {
+            fw_lanes dx = at.x - *(const fw_lanes *)(x + i), dy = at.y - *(const fw_lanes *)(y + i);
+            fw_lanes limit = at.r + *(const fw_lanes *)(r + i) + at.gap;
+            /* one height less where dy > half of it, one more where dy < -half; else no change */
+            dy += (fw_lanes)(height & (dy < -half)) - (fw_lanes)(height & (dy > half));
+            is_taken |= dx * dx + dy * dy < limit * limit;
+        }
+        if (fw_lanes_any(is_taken)) return true;
     }
-    int64_t any = is_taken[0];
-    for (int i = 1; i < FW_LANES; i++) any |= is_taken[i];
-    return any != 0;
+    return false;
 }
 
 #endif

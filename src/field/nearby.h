@@ -13,7 +13,7 @@
 #include "field/abreast.h"
 #include "floewear/status.h"
 
-enum { FW_NEARBY_SOME = 8 };
+enum { FW_NEARBY_SOME = FW_ABREAST };
 
 typedef struct fw_nearby_some {
     double  x[FW_NEARBY_SOME], y[FW_NEARBY_SOME], r[FW_NEARBY_SOME]; /* beyond n: x = INFINITY, a disc nowhere */

@@ -13,7 +13,6 @@
  * halves the pushes and still costs more. With these numbers the mixes pack to 80 %, one class of equal floes (h = 8.04
  * m) to 75 %. */
 enum {
-    ABREAST = 8,        /* discs compared before the answer is looked at */
     PLAIN_TRIES = 128,     /* of a call, each against every disc: about what lists of the nearby ones cost to build */
     MAX_TRIES = 200,       /* refusals before a floe is put down crowded */
     CROWDED_PLACES = 20,   /* places looked at then */
@@ -25,7 +24,7 @@ static const double GAP = 1e-6;      /* [m] least distance between rims: far abo
 static const double PUSH_GAP = 1e-3; /* of the smaller radius: distance between rims after a push; without it the last
                                       * micrometres of a chain of pushes never end */
 
-static size_t whole_rows(size_t n) { return (n + ABREAST - 1) / ABREAST * ABREAST; }
+static size_t whole_rows(size_t n) { return (n + FW_ABREAST - 1) / FW_ABREAST * FW_ABREAST; }
 
 static fw_status grow_discs(fw_packing *p, size_t n, fw_msg *m)
 {
@@ -121,13 +120,10 @@ static double across(const fw_packing_box *b, double dy)
     return dy > 0.5 * height ? dy - height : dy < -0.5 * height ? dy + height : dy;
 }
 
-/* Is the place taken by one of discs [begin, end), whole rows of them? */
+/* Is the place taken by one of discs [begin, end)? What follows them up to a whole row lies nowhere. */
 static bool is_taken_by(const fw_packing *p, size_t begin, size_t end, fw_place at)
 {
-    for (size_t k = begin; k < end; k += ABREAST) {
-        if (fw_abreast_is_taken(p->x + k, p->y + k, p->r + k, ABREAST, at)) return true;
-    }
-    return false;
+    return fw_abreast_is_taken(p->x + begin, p->y + begin, p->r + begin, whole_rows(end - begin), at);
 }
 
 /* Lists for the floes r[0..n) that are still to be placed. */
@@ -321,8 +317,7 @@ fw_status fw_packing_place(fw_packing *p, size_t n, const double *r, fw_uniforms
                 has_nearby = true;
             }
             is_refused = has_nearby ? fw_nearby_is_taken(&p->nearby, at)
-                                    : is_taken_by(p, 0, whole_rows(p->n_own), at) ||
-                                          is_taken_by(p, p->n_most, whole_rows(p->n_discs), at);
+                                    : is_taken_by(p, 0, p->n_own, at) || is_taken_by(p, p->n_most, p->n_discs, at);
             tries += is_refused;
         }
         p->cost.n_tries += (uint64_t)tries + 1;
