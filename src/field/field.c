@@ -59,7 +59,8 @@ struct fw_field {
     fw_sizes          sizes;
     double            length; /* L [m] */
     fw_packing        packing;
-    floe_size        *sizes_drawn; /* workspace */
+    uint64_t          n_tries[N_LEVELS]; /* of the last batch of each level */
+    floe_size        *sizes_drawn;       /* workspace */
     size_t            sizes_capacity;
     tile            **table; /* open addressing by (column, row)  (table_size, a power of two) */
     size_t            table_size, n_tiles;
@@ -294,7 +295,9 @@ static fw_status place_batch(fw_field *f, tile *t, const neighbour *list, int n,
         FW_TRY(fw_packing_obstacles(p, other->end[other->level], other->public.x, other->public.y,
                                     other->public.radius, m));
     }
-    FW_TRY(fw_packing_place(p, end - begin, self->radius + begin, &random, &n_left, m));
+    uint64_t *n_expected = &f->n_tries[t->level], n_before = p->cost.n_tries;
+    FW_TRY(fw_packing_place(p, end - begin, self->radius + begin, *n_expected, &random, &n_left, m));
+    *n_expected = p->cost.n_tries - n_before;
     if (n_left > 0) {
         double share;
         FW_TRY(fw_packing_free_share(p, &share, m));

@@ -13,7 +13,7 @@
  * halves the pushes and still costs more. With these numbers the mixes pack to 80 %, one class of equal floes (h = 8.04
  * m) to 75 %. */
 enum {
-    PLAIN_TRIES = 128,     /* of a call, each against every disc: about what lists of the nearby ones cost to build */
+    PLAIN_TRIES = 192,     /* of a call, each against every disc: about what lists of the nearby ones cost to build */
     MAX_TRIES = 200,       /* refusals before a floe is put down crowded */
     CROWDED_PLACES = 20,   /* places looked at then */
     MAX_OVERLAPS = 64,     /* overlaps of one floe handled at once; more are seen when it is looked at again */
@@ -299,10 +299,11 @@ static fw_status relax(fw_packing *p, ring *q, fw_uniforms *random, size_t *n_le
     return FW_OK;
 }
 
-fw_status fw_packing_place(fw_packing *p, size_t n, const double *r, fw_uniforms *random, size_t *n_left, fw_msg *m)
+fw_status fw_packing_place(fw_packing *p, size_t n, const double *r, uint64_t n_expected, fw_uniforms *random,
+                           size_t *n_left, fw_msg *m)
 {
     ring q = {.capacity = p->n_most};
-    int  n_plain = n < PLAIN_TRIES ? 0 : PLAIN_TRIES; /* so many floes need the lists anyway */
+    int  n_plain = n < PLAIN_TRIES && n_expected < PLAIN_TRIES ? 0 : PLAIN_TRIES; /* lists at once if they pay anyway */
     bool has_nearby = false;
     *n_left = 0;
     for (size_t k = 0; k < n; k++) {

@@ -64,9 +64,11 @@ fw_status fw_packing_begin(fw_packing *p, const fw_packing_box *box, size_t n_mo
 fw_status fw_packing_own(fw_packing *p, size_t n, const double *x, const double *y, const double *r, fw_msg *m);
 /* Floes of a neighbour; ignored when they are out of reach. In a box that wraps they wrap, too. */
 fw_status fw_packing_obstacles(fw_packing *p, size_t n, const double *x, const double *y, const double *r, fw_msg *m);
-/* Place n floes of radius r[0..n) as own floes (they follow the ones that were there). *n_left: floes that still
- * overlap when everything was tried; 0 means success. FW_E_NOMEM otherwise only. */
-fw_status fw_packing_place(fw_packing *p, size_t n, const double *r, fw_uniforms *random, size_t *n_left, fw_msg *m);
+/* Place n floes of radius r[0..n) as own floes (they follow the ones that were there). n_expected: the tries that a
+ * similar call took, 0 when unknown; a wrong number costs time and changes no floe. *n_left: floes that still overlap
+ * when everything was tried; 0 means success. FW_E_NOMEM otherwise only. */
+fw_status fw_packing_place(fw_packing *p, size_t n, const double *r, uint64_t n_expected, fw_uniforms *random,
+                           size_t *n_left, fw_msg *m);
 /* Area of the own floes that overlap nothing over the area of the box: what a failed packing reached. */
 fw_status fw_packing_free_share(fw_packing *p, double *share, fw_msg *m);
 void      fw_packing_free(fw_packing *p);

@@ -74,10 +74,10 @@ static void discs_never_overlap(void **state)
         }
         add_obstacle(&p, 900.0, 100.0, cases[k].largest); /* out of reach */
         /* In two calls: the second may move the floes of the first. */
-        assert_int_equal(fw_packing_place(&p, n / 3, r, &random, &n_left, &m), FW_OK);
+        assert_int_equal(fw_packing_place(&p, n / 3, r, 0, &random, &n_left, &m), FW_OK);
         assert_int_equal(n_left, 0);
         assert_no_overlap(&p);
-        assert_int_equal(fw_packing_place(&p, n - n / 3, r + n / 3, &random, &n_left, &m), FW_OK);
+        assert_int_equal(fw_packing_place(&p, n - n / 3, r + n / 3, 1000, &random, &n_left, &m), FW_OK);
         assert_int_equal(n_left, 0);
         assert_int_equal(p.n_own, n);
         assert_no_overlap(&p);
@@ -99,14 +99,14 @@ static void what_cannot_be_packed_says_so(void **state)
     size_t n_left, n = fill(r, 200, 3.0, 3.0, 0.95, 3600.0); /* above the densest packing of equal discs, 0.9069 */
     fw_uniforms_stream(&random, 11, FW_STREAM_TEST, 0, 0);
     assert_int_equal(fw_packing_begin(&p, &box, n, 3.0, 3.0, &m), FW_OK);
-    assert_int_equal(fw_packing_place(&p, n, r, &random, &n_left, &m), FW_OK);
+    assert_int_equal(fw_packing_place(&p, n, r, 0, &random, &n_left, &m), FW_OK);
     assert_true(n_left > 0);
     assert_true(free_share(&p) < 0.9069);
 
     /* One disc and an obstacle that covers the whole box. */
     assert_int_equal(fw_packing_begin(&p, &box, 1, 50.0, 3.0, &m), FW_OK);
     add_obstacle(&p, 30.0, 30.0, 50.0);
-    assert_int_equal(fw_packing_place(&p, 1, r, &random, &n_left, &m), FW_OK);
+    assert_int_equal(fw_packing_place(&p, 1, r, 0, &random, &n_left, &m), FW_OK);
     assert_int_equal(n_left, 1);
     assert_true(free_share(&p) == 0.0);
     fw_packing_free(&p);
@@ -122,7 +122,7 @@ static void nothing_to_place_is_fine(void **state)
     size_t         n_left = 7;
     fw_uniforms_stream(&random, 1, FW_STREAM_TEST, 0, 0);
     assert_int_equal(fw_packing_begin(&p, &box, 0, 5.0, 3.0, &m), FW_OK);
-    assert_int_equal(fw_packing_place(&p, 0, NULL, &random, &n_left, &m), FW_OK);
+    assert_int_equal(fw_packing_place(&p, 0, NULL, 0, &random, &n_left, &m), FW_OK);
     assert_int_equal(n_left, 0);
     assert_true(free_share(&p) == 0.0);
     fw_packing_free(&p);
@@ -144,7 +144,7 @@ static void overlapping_floes_are_pushed_apart(void **state)
     fw_uniforms_stream(&random, 2, FW_STREAM_TEST, 0, 0);
     assert_int_equal(fw_packing_begin(&p, &box, 80, 2.0, 2.0, &m), FW_OK);
     assert_int_equal(fw_packing_own(&p, 3, (double[]){20.0, 24.1, 28.2}, (double[]){20.0, 20.0, 20.0}, r, &m), FW_OK);
-    assert_int_equal(fw_packing_place(&p, 77, r, &random, &n_left, &m), FW_OK);
+    assert_int_equal(fw_packing_place(&p, 77, r, 0, &random, &n_left, &m), FW_OK);
     assert_int_equal(n_left, 0);
     assert_true(p.cost.n_crowded > 0 && p.cost.n_pushes > 0);
     assert_no_overlap(&p);
