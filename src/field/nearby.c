@@ -61,12 +61,12 @@ fw_status fw_nearby_add(fw_nearby *b, double x, double y, double r, fw_msg *m)
 {
     const fw_nearby at = *b; /* a copy: what is written to the lists could be the grid's own numbers, for all C knows */
     /* A little further than needed: rounding must not let a place fall between two cells. */
-    double  reach = (r + at.r_most) * (1.0 + 1e-9) + 2e-6, at_x = x - at.x0, at_y = y - at.y0;
-    double  low = (at_y - reach) * at.per_y, high = (at_y + reach) * at.per_y;
-    bool    wraps = at.height < INFINITY;
-    int32_t begin = floor_of(wraps || low > 0.0 ? low : 0.0);
-    int32_t end = floor_of(wraps || high < at.ny ? high : at.ny - 1.0) + 1;
-    bool    is_all_round = wraps && end - begin > at.ny; /* as tall as the box: every row, and each of them once */
+    double          reach = (r + at.r_most) * (1.0 + 1e-9) + 2e-6, at_x = x - at.x0, at_y = y - at.y0;
+    double          low = (at_y - reach) * at.per_y, high = (at_y + reach) * at.per_y;
+    bool            wraps = at.height < INFINITY;
+    int32_t         begin = floor_of(wraps || low > 0.0 ? low : 0.0);
+    int32_t         end = floor_of(wraps || high < at.ny ? high : at.ny - 1.0) + 1;
+    bool is_all_round = wraps && end - begin > at.ny; /* as tall as the box: every row, and each of them once */
     if (is_all_round) begin = 0, end = at.ny;
     for (int32_t iy = begin; iy < end; iy++) {
         double  away = larger(0.0, larger(iy * at.cell_y - at_y, at_y - (iy + 1) * at.cell_y));

@@ -17,7 +17,7 @@ enum { FW_NEARBY_SOME = FW_ABREAST };
 
 typedef struct fw_nearby_some {
     double  x[FW_NEARBY_SOME], y[FW_NEARBY_SOME], r[FW_NEARBY_SOME]; /* beyond n: x = INFINITY, a disc nowhere */
-    int32_t n, next; /* next: more of the cell's discs, -1 at the end */
+    int32_t n, next;                                                 /* next: more of the cell's discs, -1 at the end */
 } fw_nearby_some;
 
 typedef struct fw_nearby {

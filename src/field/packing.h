@@ -39,16 +39,16 @@ typedef struct fw_packing_cost {
 
 typedef struct fw_packing {
     fw_packing_box  box;
-    double          reach; /* obstacles further than this outside the box are ignored [m] */
-    double          rim;   /* discs may lie this far outside the box [m] */
-    double          cell;  /* side of the search cells [m] */
+    double          reach;          /* obstacles further than this outside the box are ignored [m] */
+    double          rim;            /* discs may lie this far outside the box [m] */
+    double          cell;           /* side of the search cells [m] */
     double          x_last, y_last; /* the largest numbers below x1 and y1 */
     double          height;         /* of the box when it wraps, else infinite */
     fw_nearby       nearby;
     fw_cover        cover;
-    bool            has_cover; /* else cover is not built yet */
-    size_t          n_own;     /* own floes are discs 0 .. n_own - 1 in the order they came */
-    size_t          n_before;  /* of them, those that came before the obstacles */
+    bool            has_cover;       /* else cover is not built yet */
+    size_t          n_own;           /* own floes are discs 0 .. n_own - 1 in the order they came */
+    size_t          n_before;        /* of them, those that came before the obstacles */
     size_t          n_most, n_discs; /* obstacles are discs n_most .. n_discs - 1; n_most is rounded up */
     double         *x, *y, *r;       /* (n_discs and a few more, which lie nowhere: x = INFINITY) [m] */
     int32_t        *queue;           /* ring of own floes to be freed */

@@ -178,7 +178,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(philox_known_answers),
         cmocka_unit_test(counter_carries),
-        cmocka_unit_test(uniforms_are_those_of_the_stream), cmocka_unit_test(gsl_gives_the_same_words),
+        cmocka_unit_test(uniforms_are_those_of_the_stream),
+        cmocka_unit_test(gsl_gives_the_same_words),
         cmocka_unit_test(streams_are_independent),
         cmocka_unit_test(neighbouring_streams_differ_in_their_state),
         cmocka_unit_test(uniform_is_open_and_even),
