@@ -150,7 +150,7 @@ static void add_piece(const fw_rule *r, const fw_wear_interval *iv, const course
         } else if (kind == GROWS) {
             u = a + width * node[i] * node[i], end = a + width * next * next, dt *= 2 * node[i];
         }
-        to->u[q] = u, to->dt[q] = dt, to->lift[q] = 1;
+        to->u[q] = u, to->dt[q] = dt, to->lift[q] = to->lift2_from[q] = to->lift2_to[q] = 1;
         to->from[q] = edge, to->to[q] = edge = i + 1 < n ? end : b;
         done = next;
         to->wide[q] = dt;
@@ -161,7 +161,11 @@ static void add_piece(const fw_rule *r, const fw_wear_interval *iv, const course
     if (kind == TOUCH) {
         double t_end = iv->since_touch + b * iv->length, start = fmax(0, 1 - width * iv->length / t_end);
         double root = sqrt(start), log_start = log(start);
-        for (size_t i = 0; i < n; i++) to->lift[to->n + i] = sqrt(start + (1 - start) * node[i]);
+        double part = start;
+        for (size_t i = 0; i < n; i++) {
+            to->lift[to->n + i] = sqrt(start + (1 - start) * node[i]);
+            to->lift2_from[to->n + i] = part, to->lift2_to[to->n + i] = part += (1 - start) * weight[i];
+        }
         touch_weights(r, 1.5, start, 1 - start * root, t_end, to->wide + to->n);
         for (size_t l = 0; l < r->n_laws; l++) {
             double e = 1 - 0.5 * r->exponent[l], rest = -expm1(e * log_start); /* e may be close to 0 */
@@ -234,7 +238,7 @@ bool fw_rule_is_smooth(fw_rule *r, fw_wear_rule rule, const fw_wear_interval *re
 static void at_end(const fw_rule *r, const fw_wear_interval *iv, fw_rule_nodes *to)
 {
     size_t last = iv->n_stages - 1;
-    to->n = 1, to->u[0] = to->from[0] = to->to[0] = 1, to->lift[0] = 1;
+    to->n = 1, to->u[0] = to->from[0] = to->to[0] = 1, to->lift[0] = to->lift2_from[0] = to->lift2_to[0] = 1;
     to->dt[0] = to->wide[0] = iv->length;
     to->normal[0] = iv->normal[last], to->slip[0] = iv->slip[last], to->depth[0] = iv->depth[1];
     for (size_t l = 0; l < r->n_laws; l++) to->along[l][0] = to->wall[l][0] = iv->length;

@@ -53,6 +53,7 @@ typedef struct fw_rule_nodes {
     size_t n;
     double u[FW_RULE_NODES], from[FW_RULE_NODES], to[FW_RULE_NODES]; /* shares of the interval's length */
     double normal[FW_RULE_NODES], slip[FW_RULE_NODES], depth[FW_RULE_NODES], lift[FW_RULE_NODES];
+    double lift2_from[FW_RULE_NODES], lift2_to[FW_RULE_NODES]; /* lift^2 where the node's part begins and ends */
     double dt[FW_RULE_NODES], wide[FW_RULE_NODES]; /* weights [s] */
     double along[FW_MAX_LAWS][FW_RULE_NODES], wall[FW_MAX_LAWS][FW_RULE_NODES];
 } fw_rule_nodes;

@@ -1,6 +1,8 @@
 #include "geometry/ring.h"
 
 #include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
 
 static const double TWO_PI = 6.283185307179586476925286766559, TURNS_PER_RADIAN = 1 / 6.283185307179586476925286766559;
 
@@ -9,6 +11,13 @@ double fw_ring_angle(double x, double y)
     double a = atan2(y, -x);
     if (a < 0) a += TWO_PI;
     return a < TWO_PI ? a : 0;
+}
+
+double fw_ring_turn(double x0, double y0, double x1, double y1)
+{
+    double across = x1 * y0 - x0 * y1, along = x0 * x1 + y0 * y1, t = across / along, s = t * t;
+    if (!(along > 0) || s > 0.0025) return atan2(across, along);
+    return t * (1 - s * (1.0 / 3 - s * (1.0 / 5 - s * (1.0 / 7 - s * (1.0 / 9 - s * (1.0 / 11)))))); /* left out: 3e-17 t */
 }
 
 /* An edge that sweeps evenly over [from, from + sweep], lengths in arcs. */
@@ -44,62 +53,87 @@ static inline void add(quad *cell, const quad *amount, double share, size_t n_qu
     for (size_t i = 0; i < n_quads; i++) cell[i] += amount[i] * share;
 }
 
-static inline size_t wrapped(size_t arc, size_t n_arcs) { return arc < n_arcs ? arc : arc - n_arcs; }
+/* Where a patch lies, in arcs from the first one it reaches. Its low edge sweeps over the first n_tail arcs, its high edge over
+ * the last n_nose; they share arcs when n_tail + n_nose > n. */
+typedef struct patch {
+    edge   tail, nose;
+    double end, whole; /* where the nose ends; share of an arc that is covered all the time */
+    size_t first, n, n_tail, n_nose;
+} patch;
 
-/* Inlined once with a stride of one quad. */
-static inline void spread(quad *cells, size_t stride, size_t n_arcs, const double low[2], const double high[2],
-                          const quad *amount)
+static inline bool locate(patch *p, size_t n_arcs, const double low[2], const double high[2])
 {
     double n = (double)n_arcs, scale = n * TURNS_PER_RADIAN;
     double l0 = low[0] * scale, l1 = low[1] * scale, h0 = high[0] * scale, h1 = high[1] * scale;
     double lack = 1e-3 - 0.5 * ((h0 - l0) + (h1 - l1));
     if (lack > 0) l0 -= 0.5 * lack, l1 -= 0.5 * lack, h0 += 0.5 * lack, h1 += 0.5 * lack;
     double start = floor(l0 < l1 ? l0 : l1), k = start >= 0 && start < n ? start : start - n * floor(start / n);
-    size_t first = k < n ? (size_t)k : 0;
-    edge   tail = edge_of(l0 - start, l1 - start), nose = edge_of(h0 - start, h1 - start);
-    double tail_end = tail.from + tail.sweep, end = nose.from + nose.sweep;
-    if (!(end < 2 * n)) return; /* no number: the sums over the ring will show it */
+    p->first = k < n ? (size_t)k : 0;
+    p->tail = edge_of(l0 - start, l1 - start), p->nose = edge_of(h0 - start, h1 - start);
+    double tail_end = p->tail.from + p->tail.sweep, end = p->nose.from + p->nose.sweep;
+    if (!(end < 2 * n)) return false; /* no number: the sums over the ring will show it */
     /* the width from the numbers that the shares come from: then they sum to 1 */
-    double whole = 2 / ((nose.from + end) - (tail.from + tail_end)), last = 0;
+    p->end = end, p->whole = 2 / ((p->nose.from + end) - (p->tail.from + tail_end));
     size_t count = (size_t)end;
     count += (double)count < end;
-    if (count > n_arcs + 1) count = n_arcs + 1;
+    p->n = count = count < n_arcs + 1 ? count : n_arcs + 1;
     /* Two arcs at least for either edge: most edges need no more, and a loop whose length seldom changes is a cheap one. */
-    size_t a1 = (size_t)tail_end + 1, at_nose = count - (size_t)nose.from;
-    if (a1 < 2) a1 = 2;
-    if (at_nose < 2) at_nose = 2;
-    if (a1 + at_nose > count) {
-        for (size_t a = 0; a < count; a++) {
-            double x = (double)(a + 1), next = passed(&tail, x - tail.from) - passed(&nose, x - nose.from);
-            if (next > last) {
-                add(cells + wrapped(first + a, n_arcs) * stride, amount, (next - last) * whole, stride);
+    size_t n_tail = (size_t)tail_end + 1, n_nose = count - (size_t)p->nose.from;
+    p->n_tail = n_tail < 2 ? 2 : n_tail, p->n_nose = n_nose < 2 ? 2 : n_nose;
+    return true;
+}
+
+/* Inlined for one quad and for many, and for a patch that does not pass arc 0: `round` is a constant, and cell `a` then a plain
+ * address. */
+static inline void lay(quad *cells, size_t stride, size_t n_arcs, const patch *p, const quad *amount, bool round)
+{
+    quad        *near = cells + p->first * stride;
+    const size_t beyond = round ? n_arcs - p->first : SIZE_MAX; /* from this arc of the patch on: at the ring's beginning */
+    double       last = 0, y;
+#define CELL(a) ((a) < beyond ? near + (a)*stride : near + (a)*stride - n_arcs * stride)
+    if (p->n_tail + p->n_nose > p->n) {
+        y = 1;
+        for (size_t a = 0; a < p->n; a++, y += 1) {
+            double next = passed(&p->tail, y - p->tail.from) - passed(&p->nose, y - p->nose.from), share = next - last;
+            if (share > 0) {
+                add(CELL(a), amount, share * p->whole, stride);
                 last = next;
             }
         }
         return;
     }
-    for (size_t a = 0; a < a1; a++) {
-        double next = passed(&tail, (double)(a + 1) - tail.from);
-        add(cells + wrapped(first + a, n_arcs) * stride, amount, (next - last) * whole, stride);
+    size_t rest = p->n - p->n_nose, a = p->n_tail;
+    y = 1 - p->tail.from;
+    for (size_t i = 0; i < a; i++, y += 1) {
+        double next = passed(&p->tail, y);
+        add(CELL(i), amount, (next - last) * p->whole, stride);
         last = next;
     }
-    size_t a2 = count - at_nose, from = first + a1, to = first + a2, until = to < n_arcs ? to : n_arcs;
-    for (size_t a = from; a < until; a++) add(cells + a * stride, amount, whole, stride);
-    for (size_t a = from > n_arcs ? from : n_arcs; a < to; a++)
-        add(cells + (a - n_arcs) * stride, amount, whole, stride);
-    last = 0;
-    for (size_t a = count; a-- > a2;) {
-        double next = passed(&nose, end - (double)a);
-        add(cells + wrapped(first + a, n_arcs) * stride, amount, (next - last) * whole, stride);
+    for (; a + 1 < rest; a += 2) {
+        add(CELL(a), amount, p->whole, stride);
+        add(CELL(a + 1), amount, p->whole, stride);
+    }
+    if (a < rest) add(CELL(a), amount, p->whole, stride);
+    last = 0, y = p->end - (double)p->n + 1;
+    for (size_t i = p->n; i-- > rest; y += 1) {
+        double next = passed(&p->nose, y);
+        add(CELL(i), amount, (next - last) * p->whole, stride);
         last = next;
     }
+#undef CELL
 }
 
 void fw_ring_spread(double *cells, size_t n_quads, size_t n_arcs, const double low[2], const double high[2],
                     const double *amount)
 {
-    if (n_quads == 1)
-        spread((quad *)cells, 1, n_arcs, low, high, (const quad *)amount);
+    quad       *to = (quad *)cells;
+    const quad *of = (const quad *)amount;
+    patch       p;
+    if (!locate(&p, n_arcs, low, high)) return;
+    if (p.first + p.n > n_arcs)
+        lay(to, n_quads, n_arcs, &p, of, true);
+    else if (n_quads == 1)
+        lay(to, 1, n_arcs, &p, of, false);
     else
-        spread((quad *)cells, n_quads, n_arcs, low, high, (const quad *)amount);
+        lay(to, n_quads, n_arcs, &p, of, false);
 }
