@@ -35,30 +35,33 @@ static edge edge_of(double a, double b)
     return e;
 }
 
-/* How much of the stretch from an edge's far end, y long, the edge has passed, on average over its sweep:
- * y^2 / (2 sweep) within the sweep, y - sweep / 2 beyond. Selections, not branches: where an edge lies among the arcs cannot be foreseen. */
-static inline double passed(const edge *e, double y)
-{
-    y = y > 0 ? y : 0;
-    double within = y < e->sweep ? y : e->sweep;
-    return e->bend * within * within + (y - within);
-}
-
 /* Four doubles in one register where the machine has such; the compiler's own vectors, because it found them in the loops
  * below only half of the time. */
-typedef double quad __attribute__((vector_size(32), aligned(8), may_alias));
+typedef double  quad __attribute__((vector_size(32), aligned(8), may_alias));
+typedef double  four __attribute__((vector_size(32)));
+typedef int64_t mask __attribute__((vector_size(32)));
+
+static inline four positive(four x) { return (four)((mask)x & (mask)(x > 0)); }
+
+/* How much of the stretch from an edge's far end to x the edge has passed, on average over its sweep: with y the stretch's length
+ * y^2 / (2 sweep) within the sweep, y - sweep / 2 beyond. Four x at a time and selections, not branches: where an edge lies among
+ * the arcs cannot be foreseen. */
+static inline four passed(const edge *e, four x)
+{
+    four y = positive(x - e->from), beyond = positive(y - e->sweep), within = y - beyond;
+    return e->bend * within * within + beyond;
+}
 
 static inline void add(quad *cell, const quad *amount, double share, size_t n_quads)
 {
     for (size_t i = 0; i < n_quads; i++) cell[i] += amount[i] * share;
 }
 
-/* Where a patch lies, in arcs from the first one it reaches. Its low edge sweeps over the first n_tail arcs, its high edge over
- * the last n_nose; they share arcs when n_tail + n_nose > n. */
+/* Where a patch lies, in arcs from the first of the n it reaches. */
 typedef struct patch {
-    edge   tail, nose;
-    double end, whole; /* where the nose ends; share of an arc that is covered all the time */
-    size_t first, n, n_tail, n_nose;
+    edge   low, high;
+    double end, whole; /* where the high edge ends; share of an arc that is covered all the time */
+    size_t first, n;
 } patch;
 
 static inline bool locate(patch *p, size_t n_arcs, const double low[2], const double high[2])
@@ -69,58 +72,52 @@ static inline bool locate(patch *p, size_t n_arcs, const double low[2], const do
     if (lack > 0) l0 -= 0.5 * lack, l1 -= 0.5 * lack, h0 += 0.5 * lack, h1 += 0.5 * lack;
     double start = floor(l0 < l1 ? l0 : l1), k = start >= 0 && start < n ? start : start - n * floor(start / n);
     p->first = k < n ? (size_t)k : 0;
-    p->tail = edge_of(l0 - start, l1 - start), p->nose = edge_of(h0 - start, h1 - start);
-    double tail_end = p->tail.from + p->tail.sweep, end = p->nose.from + p->nose.sweep;
+    p->low = edge_of(l0 - start, l1 - start), p->high = edge_of(h0 - start, h1 - start);
+    double low_end = p->low.from + p->low.sweep, end = p->high.from + p->high.sweep;
     if (!(end < 2 * n)) return false; /* no number: the sums over the ring will show it */
     /* the width from the numbers that the shares come from: then they sum to 1 */
-    p->end = end, p->whole = 2 / ((p->nose.from + end) - (p->tail.from + tail_end));
+    p->end = end, p->whole = 2 / ((p->high.from + end) - (p->low.from + low_end));
     size_t count = (size_t)end;
     count += (double)count < end;
-    p->n = count = count < n_arcs + 1 ? count : n_arcs + 1;
-    /* Two arcs at least for either edge: most edges need no more, and a loop whose length seldom changes is a cheap one. */
-    size_t n_tail = (size_t)tail_end + 1, n_nose = count - (size_t)p->nose.from;
-    p->n_tail = n_tail < 2 ? 2 : n_tail, p->n_nose = n_nose < 2 ? 2 : n_nose;
+    p->n = count < n_arcs + 1 ? count : n_arcs + 1;
     return true;
 }
 
-/* Inlined for one quad and for many, and for a patch that does not pass arc 0: `round` is a constant, and cell `a` then a plain
- * address. */
-static inline void lay(quad *cells, size_t stride, size_t n_arcs, const patch *p, const quad *amount, bool round)
+/* Shares of arcs a to a + 3, x their ends: what was covered up to an arc's end less what was up to the arc before; past the
+ * patch 0, exactly. */
+static inline four shares(const patch *p, four x, four *covered)
 {
-    quad        *near = cells + p->first * stride;
-    const size_t beyond = round ? n_arcs - p->first : SIZE_MAX; /* from this arc of the patch on: at the ring's beginning */
-    double       last = 0, y;
-#define CELL(a) ((a) < beyond ? near + (a)*stride : near + (a)*stride - n_arcs * stride)
-    if (p->n_tail + p->n_nose > p->n) {
-        y = 1;
-        for (size_t a = 0; a < p->n; a++, y += 1) {
-            double next = passed(&p->tail, y - p->tail.from) - passed(&p->nose, y - p->nose.from), share = next - last;
-            if (share > 0) {
-                add(CELL(a), amount, share * p->whole, stride);
-                last = next;
-            }
+    four to = p->end - positive(p->end - x), before = *covered;
+    *covered = passed(&p->low, to) - passed(&p->high, to);
+    return positive(*covered - __builtin_shufflevector(before, *covered, 3, 4, 5, 6)) * p->whole;
+}
+
+static const four FIRST = {1, 2, 3, 4};
+
+static void lay_round(quad *cell, size_t stride, size_t n_arcs, const patch *p, const quad *amount)
+{
+    four covered = {0}, share, x = FIRST;
+    for (size_t a = 0; a < p->n; a += 4, x += 4) {
+        share = shares(p, x, &covered);
+        for (size_t i = 0; i < 4 && a + i < p->n; i++) {
+            if (p->first + a + i == n_arcs) cell -= n_arcs * stride;
+            add(cell, amount, share[i], stride);
+            cell += stride;
         }
-        return;
     }
-    size_t rest = p->n - p->n_nose, a = p->n_tail;
-    y = 1 - p->tail.from;
-    for (size_t i = 0; i < a; i++, y += 1) {
-        double next = passed(&p->tail, y);
-        add(CELL(i), amount, (next - last) * p->whole, stride);
-        last = next;
+}
+
+/* The same for a patch that stays below arc n_arcs when rounded up to fours. Inlined for one quad and for many. */
+static inline void lay(quad *cell, size_t stride, const patch *p, const quad *amount)
+{
+    four covered = {0}, share, x = FIRST;
+    for (quad *end = cell + p->n * stride; cell < end; cell += 4 * stride, x += 4) {
+        share = shares(p, x, &covered);
+        add(cell, amount, share[0], stride);
+        add(cell + stride, amount, share[1], stride);
+        add(cell + 2 * stride, amount, share[2], stride);
+        add(cell + 3 * stride, amount, share[3], stride);
     }
-    for (; a + 1 < rest; a += 2) {
-        add(CELL(a), amount, p->whole, stride);
-        add(CELL(a + 1), amount, p->whole, stride);
-    }
-    if (a < rest) add(CELL(a), amount, p->whole, stride);
-    last = 0, y = p->end - (double)p->n + 1;
-    for (size_t i = p->n; i-- > rest; y += 1) {
-        double next = passed(&p->nose, y);
-        add(CELL(i), amount, (next - last) * p->whole, stride);
-        last = next;
-    }
-#undef CELL
 }
 
 void fw_ring_spread(double *cells, size_t n_quads, size_t n_arcs, const double low[2], const double high[2],
@@ -130,10 +127,13 @@ void fw_ring_spread(double *cells, size_t n_quads, size_t n_arcs, const double l
     const quad *of = (const quad *)amount;
     patch       p;
     if (!locate(&p, n_arcs, low, high)) return;
-    if (p.first + p.n > n_arcs)
-        lay(to, n_quads, n_arcs, &p, of, true);
-    else if (n_quads == 1)
-        lay(to, 1, n_arcs, &p, of, false);
+    to += p.first * n_quads;
+    if (p.first + p.n + 3 > n_arcs)
+        lay_round(to, n_quads, n_arcs, &p, of);
+    else if (n_quads == 1) /* a constant stride each: no loop over quads */
+        lay(to, 1, &p, of);
+    else if (n_quads == 2)
+        lay(to, 2, &p, of);
     else
-        lay(to, n_quads, n_arcs, &p, of, false);
+        lay(to, n_quads, &p, of);
 }
