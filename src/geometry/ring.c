@@ -41,7 +41,11 @@ typedef double  quad __attribute__((vector_size(32), aligned(8), may_alias));
 typedef double  four __attribute__((vector_size(32)));
 typedef int64_t mask __attribute__((vector_size(32)));
 
+#ifdef __AVX__ /* one instruction; the compiler does not find it */
+static inline four positive(four x) { return __builtin_ia32_maxpd256(x, (four){0}); }
+#else
 static inline four positive(four x) { return (four)((mask)x & (mask)(x > 0)); }
+#endif
 
 /* How much of the stretch from an edge's far end to x the edge has passed, on average over its sweep: with y the stretch's length
  * y^2 / (2 sweep) within the sweep, y - sweep / 2 beyond. Four x at a time and selections, not branches: where an edge lies among
