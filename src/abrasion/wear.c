@@ -126,8 +126,8 @@ static void collect_smooth(fw_wear *w, const fw_wear_interval *iv, const fw_rule
     }
     double arcs = (double)w->n_arcs * (1 / TWO_PI), slip = fabs(at->slip[1]);
     double growth = 2 * fabs(p[2] - p[0]) * slip + fabs(at->slip[2] - at->slip[0]) * p[1];
-    bool   is_one = fabs(chord[2] - chord[0]) * arcs < 2 * w->structure_radius &&
-                  fabs(turn) * arcs * growth < 0.5 * p[1] * slip;
+    bool   is_one = fabs(chord[2] - chord[0]) * arcs < 3 * w->structure_radius &&
+                  fabs(turn) * arcs * growth < p[1] * slip;
     double edge = iv->angle[0], rise = (chord[2] - chord[0]) * PER_ROOT;
     deposit d = {0};
     for (size_t q = 0; q < 3; q++) {
