@@ -109,9 +109,9 @@ static void count(fw_wear *w, size_t l, double path, double along, double wall, 
 }
 
 /* The usual interval. Its three patches are laid down as one that sweeps from the interval's start to its end, when that is as
- * good: total and mean edges stay. Load that grows while the patch moves then lies a twelfth of growth x way too far back, and
- * edges that do not move evenly are off by less than the limit here: both small parts of an arc, and gone again when the
- * patch slows or shrinks. */
+ * good: total and mean edges stay. Load that grows while the patch moves then lies a twelfth of growth x way too far back, less than
+ * a tenth of an arc; edges that do not move evenly are off by the chord's bend, a part of the arc and a half that either
+ * may move by growth. Both are gone again when the patch slows or shrinks. */
 static void collect_smooth(fw_wear *w, const fw_wear_interval *iv, const fw_rule_smooth *at, double turn)
 {
     static const double U[3] = FW_RULE_NODES3, WEIGHT[3] = FW_RULE_WEIGHTS3;

@@ -37,23 +37,44 @@ static edge edge_of(double a, double b)
 }
 
 /* Four doubles in one register where the machine has such; the compiler's own vectors, because it found them in the loops
- * below only half of the time. */
+ * below only half of the time. Arcs go by registers: a pair at a time where a register holds no more, since four split in halves
+ * cost twice as much as one after the other. The maximum is one instruction that the compiler does not find. */
 typedef double  quad __attribute__((vector_size(32), aligned(8), may_alias));
-typedef double  four __attribute__((vector_size(32)));
-typedef int64_t mask __attribute__((vector_size(32)));
-
-#ifdef __AVX__ /* one instruction; the compiler does not find it */
-static inline four positive(four x) { return __builtin_ia32_maxpd256(x, (four){0}); }
+#ifdef __AVX__
+enum { LANES = 4 };
 #else
-static inline four positive(four x) { return (four)((mask)x & (mask)(x > 0)); }
+enum { LANES = 2 };
 #endif
+typedef double lanes __attribute__((vector_size(LANES * 8)));
+
+static inline lanes positive(lanes x)
+{
+#if defined __AVX__
+    return __builtin_ia32_maxpd256(x, (lanes){0});
+#elif defined __SSE2__
+    return __builtin_ia32_maxpd(x, (lanes){0});
+#else
+    typedef int64_t mask __attribute__((vector_size(LANES * 8)));
+    return (lanes)((mask)x & (mask)(x > 0));
+#endif
+}
+
+/* What stands before each of `now`, given what was before. */
+static inline lanes shifted(lanes before, lanes now)
+{
+#ifdef __AVX__
+    return __builtin_shufflevector(before, now, 3, 4, 5, 6);
+#else
+    return __builtin_shufflevector(before, now, 1, 2);
+#endif
+}
 
 /* How much of the stretch from an edge's far end to x the edge has passed, on average over its sweep: with y the stretch's length
- * y^2 / (2 sweep) within the sweep, y - sweep / 2 beyond. Four x at a time and selections, not branches: where an edge lies among
+ * y^2 / (2 sweep) within the sweep, y - sweep / 2 beyond. Several x at a time and selections, not branches: where an edge lies among
  * the arcs cannot be foreseen. */
-static inline four passed(const edge *e, four x)
+static inline lanes passed(const edge *e, lanes x)
 {
-    four y = positive(x - e->from), beyond = positive(y - e->sweep), within = y - beyond;
+    lanes y = positive(x - e->from), beyond = positive(y - e->sweep), within = y - beyond;
     return e->bend * within * within + beyond;
 }
 
@@ -88,23 +109,28 @@ static inline bool locate(patch *p, size_t n_arcs, const double low[2], const do
     return true;
 }
 
-/* Shares of arcs a to a + 3, x their ends: what was covered up to an arc's end less what was up to the arc before; past the
- * patch 0, exactly. */
-static inline four shares(const patch *p, four x, four *covered)
+/* Shares of the next arcs, x their ends: what was covered up to an arc's end less what was up to the arc before; past the patch
+ * 0, exactly. */
+static inline lanes shares(const patch *p, lanes x, lanes *covered)
 {
-    four to = p->end - positive(p->end - x), before = *covered;
+    lanes to = p->end - positive(p->end - x), before = *covered;
     *covered = passed(&p->low, to) - passed(&p->high, to);
-    return positive(*covered - __builtin_shufflevector(before, *covered, 3, 4, 5, 6)) * p->whole;
+    return positive(*covered - shifted(before, *covered)) * p->whole;
 }
 
-static const four FIRST = {1, 2, 3, 4};
+static inline lanes first_ends(void)
+{
+    lanes x;
+    for (int i = 0; i < LANES; i++) x[i] = i + 1;
+    return x;
+}
 
 static void lay_round(quad *cell, size_t stride, size_t n_arcs, const patch *p, const quad *amount)
 {
-    four covered = {0}, share, x = FIRST;
-    for (size_t a = 0; a < p->n; a += 4, x += 4) {
+    lanes covered = {0}, share, x = first_ends();
+    for (size_t a = 0; a < p->n; a += LANES, x += LANES) {
         share = shares(p, x, &covered);
-        for (size_t i = 0; i < 4 && a + i < p->n; i++) {
+        for (size_t i = 0; i < LANES && a + i < p->n; i++) {
             if (p->first + a + i == n_arcs) cell -= n_arcs * stride;
             add(cell, amount, share[i], stride);
             cell += stride;
@@ -112,16 +138,18 @@ static void lay_round(quad *cell, size_t stride, size_t n_arcs, const patch *p, 
     }
 }
 
-/* The same for a patch that stays below arc n_arcs when rounded up to fours. Inlined for one quad and for many. */
+/* The same for a patch that stays below arc n_arcs when rounded up to whole registers. Inlined for one quad and for many. */
 static inline void lay(quad *cell, size_t stride, const patch *p, const quad *amount)
 {
-    four covered = {0}, share, x = FIRST;
-    for (quad *end = cell + p->n * stride; cell < end; cell += 4 * stride, x += 4) {
+    lanes covered = {0}, share, x = first_ends();
+    for (quad *end = cell + p->n * stride; cell < end; cell += LANES * stride, x += LANES) {
         share = shares(p, x, &covered);
         add(cell, amount, share[0], stride);
         add(cell + stride, amount, share[1], stride);
+#ifdef __AVX__
         add(cell + 2 * stride, amount, share[2], stride);
         add(cell + 3 * stride, amount, share[3], stride);
+#endif
     }
 }
 
@@ -133,7 +161,7 @@ void fw_ring_spread(double *cells, size_t n_quads, size_t n_arcs, const double l
     patch       p;
     if (!locate(&p, n_arcs, low, high)) return;
     to += p.first * n_quads;
-    if (p.first + p.n + 3 > n_arcs)
+    if (p.first + p.n + LANES - 1 > n_arcs)
         lay_round(to, n_quads, n_arcs, &p, of);
     else if (n_quads == 1) /* a constant stride each: no loop over quads */
         lay(to, 1, &p, of);
