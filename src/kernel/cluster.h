@@ -54,6 +54,7 @@ typedef struct fw_pair {
     double               t_touch, since_touch;
     double               normal[FW_MAX_STAGES], friction[FW_MAX_STAGES], slip[FW_MAX_STAGES], rate[FW_MAX_STAGES];
     double               depth[FW_MAX_STAGES], dir[FW_MAX_STAGES][2];
+    double  wear_until, wear_angle; /* ring angle at the end of the last interval that wore, and when */
     double  load, load_tried; /* of this touch so far, and of the tried step: see wear_error in cluster.c */
     int32_t candidate;        /* its entry in the lists of who may touch whom */
 } fw_pair;
