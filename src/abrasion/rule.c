@@ -17,6 +17,8 @@ static const double WEIGHT4[] = {0.17392742256872693, 0.32607257743127307, 0.326
 static const double EARLY = 2;
 /* Force at one end below this share of the other: nodes drawn to that end. */
 static const double FADED = 0.25;
+/* Force right after a touch above this share of the end's: a touch, however much it grows. */
+static const double GROWN = 0.05;
 
 /* Lagrange polynomials of n nodes: out[k][i] is the coefficient of u^k in the polynomial that is 1 at node i. */
 static void lagrange(size_t n, const double *at, size_t row, double *out)
@@ -39,7 +41,14 @@ void fw_rule_init(fw_rule *r, size_t n_laws, const double *exponent)
 {
     memset(r, 0, sizeof *r);
     r->n_laws = n_laws;
-    for (size_t l = 0; l < n_laws; l++) r->exponent[l] = exponent[l];
+    for (size_t l = 0; l < n_laws; l++) {
+        double e = 1 - 0.5 * exponent[l];
+        r->exponent[l] = exponent[l];
+        fw_power_init(&r->start[l], e);
+        for (size_t k = 0; k < FW_RULE_TOUCH; k++)
+            r->along[l][k] = 1 / ((double)k + e), r->wall[l][k] = 1 / ((double)k + e + 0.5);
+    }
+    for (size_t k = 0; k < FW_RULE_TOUCH; k++) r->wide[k] = 1 / ((double)k + 1.5);
     lagrange(FW_RULE_TOUCH, NODE4, FW_RULE_TOUCH, &r->touch[0][0]);
 }
 
@@ -69,22 +78,29 @@ static void know_stages(fw_rule *r, const fw_wear_interval *iv)
         for (size_t q = 0; q < 4; q++) {
             double u = NODE3[q < 3 ? q : 1], sum = 0;
             for (size_t k = n; k-- > 0;) sum = sum * u + r->to_power[k][i];
-            r->to_node[i][q] = sum;
+            r->to_node[i][q] = sum, sum = 0;
+            for (size_t k = n; k-- > 0;) sum = sum * NODE4[q] + r->to_power[k][i];
+            r->to_touch[i][q] = sum;
         }
 }
 
 static void through_stages(fw_rule *r, const fw_wear_interval *iv, course *c)
 {
     size_t n = iv->n_stages;
-    know_stages(r, iv);
     c->n = n;
-    for (size_t k = 0; k < n; k++) {
-        double normal = 0, slip = 0;
-        for (size_t i = 0; i < n; i++) {
-            normal += r->to_power[k][i] * iv->normal[i];
-            slip += r->to_power[k][i] * iv->slip[i];
+    if (n == 2) { /* a release: the method's stages stay known */
+        c->normal[0] = iv->normal[0], c->normal[1] = iv->normal[1] - iv->normal[0];
+        c->slip[0] = iv->slip[0], c->slip[1] = iv->slip[1] - iv->slip[0];
+    } else {
+        know_stages(r, iv);
+        for (size_t k = 0; k < n; k++) {
+            double normal = 0, slip = 0;
+            for (size_t i = 0; i < n; i++) {
+                normal += r->to_power[k][i] * iv->normal[i];
+                slip += r->to_power[k][i] * iv->slip[i];
+            }
+            c->normal[k] = normal, c->slip[k] = slip;
         }
-        c->normal[k] = normal, c->slip[k] = slip;
     }
     c->n_depth = iv->has_overlap ? n : 4;
     if (iv->has_overlap) {
@@ -126,17 +142,32 @@ static double zero(size_t n, const double *c, double a, double fa, double b, dou
 enum kind { SMOOTH, TOUCH, FADES, GROWS };
 
 /* Weights at the touch nodes for int t^(e-1) f dt from start t_end to t_end, f smooth, at nodes freed of (t / t_end)^(e-1).
- * In x = t / t_end and z = (x - start) / (1 - start) the moments J_k = int x^(e-1) z^k dx follow by parts from J_0, given as
- * rest = 1 - start^e. */
-static void touch_weights(const fw_rule *r, double e, double start, double rest, double t_end, double *weight)
+ * In x = t / t_end and z = (x - start) / (1 - start) the moments J_k = int x^(e-1) z^k dx follow by parts from J_0, given;
+ * step = start / (1 - start), inverse[k] = 1 / (k + e). */
+static void touch_weights(const fw_rule *r, const double *inverse, double J0, double step, double t_end, double *weight)
 {
-    double J[FW_RULE_TOUCH], step = start / (1 - start);
-    J[0] = rest / e;
-    for (size_t k = 1; k < FW_RULE_TOUCH; k++) J[k] = (1 - (double)k * step * J[k - 1]) / ((double)k + e);
+    double J1 = (1 - step * J0) * inverse[1], J2 = (1 - 2 * step * J1) * inverse[2];
+    double J3 = (1 - 3 * step * J2) * inverse[3];
+    for (size_t i = 0; i < FW_RULE_TOUCH; i++)
+        weight[i] = t_end * (r->touch[0][i] * J0 + r->touch[1][i] * J1 + (r->touch[2][i] * J2 + r->touch[3][i] * J3));
+}
+
+/* Lift and weights of the touch nodes from to->n on, for times from start t_end to t_end after the touch. */
+static void weigh_touch(const fw_rule *r, double start, double t_end, fw_rule_nodes *to)
+{
+    size_t n = to->n;
+    double rest = 1 - start, step = start / rest, root = sqrt(start), part = start;
     for (size_t i = 0; i < FW_RULE_TOUCH; i++) {
-        double sum = 0;
-        for (size_t k = 0; k < FW_RULE_TOUCH; k++) sum += r->touch[k][i] * J[k];
-        weight[i] = sum * t_end;
+        to->lift[n + i] = sqrt(start + rest * NODE4[i]);
+        to->lift2_from[n + i] = part, to->lift2_to[n + i] = part += rest * WEIGHT4[i];
+    }
+    touch_weights(r, r->wide, (1 - start * root) * r->wide[0], step, t_end, to->wide + n);
+    for (size_t l = 0; l < r->n_laws; l++) {
+        double e = r->start[l].m, power = start > 0 ? fw_power_of(&r->start[l], start) : e > 0 ? 0 : INFINITY;
+        double J0 = (1 - power) * r->along[l][0];
+        if (fabs(e) < 0.01) J0 = e != 0 ? -expm1(e * log(start)) / e : -log(start); /* no digits left in the difference */
+        touch_weights(r, r->along[l], J0, step, t_end, to->along[l] + n);
+        touch_weights(r, r->wall[l], (1 - power * root) * r->wall[l][0], step, t_end, to->wall[l] + n);
     }
 }
 
@@ -159,7 +190,7 @@ static void add_piece(const fw_rule *r, const fw_wear_interval *iv, const course
         } else if (kind == GROWS) {
             u = a + width * node[i] * node[i], end = a + width * next * next, dt *= 2 * node[i];
         }
-        to->u[q] = u, to->dt[q] = dt, to->lift[q] = 1;
+        to->u[q] = u, to->dt[q] = dt, to->lift[q] = to->lift2_from[q] = to->lift2_to[q] = 1;
         to->from[q] = edge, to->to[q] = edge = i + 1 < n ? end : b;
         done = next;
         to->wide[q] = dt;
@@ -168,15 +199,8 @@ static void add_piece(const fw_rule *r, const fw_wear_interval *iv, const course
         to->depth[q] = value(c->n_depth, c->depth, u);
     }
     if (kind == TOUCH) {
-        double t_end = iv->since_touch + b * iv->length, start = fmax(0, 1 - width * iv->length / t_end);
-        double root = sqrt(start), log_start = log(start);
-        for (size_t i = 0; i < n; i++) to->lift[to->n + i] = sqrt(start + (1 - start) * node[i]);
-        touch_weights(r, 1.5, start, 1 - start * root, t_end, to->wide + to->n);
-        for (size_t l = 0; l < r->n_laws; l++) {
-            double e = 1 - 0.5 * r->exponent[l], rest = -expm1(e * log_start); /* e may be close to 0 */
-            touch_weights(r, e, start, rest, t_end, to->along[l] + to->n);
-            touch_weights(r, e + 0.5, start, 1 - (1 - rest) * root, t_end, to->wall[l] + to->n);
-        }
+        double t_end = iv->since_touch + b * iv->length;
+        weigh_touch(r, fmax(0, 1 - width * iv->length / t_end), t_end, to);
     }
     to->n += n;
 }
@@ -189,7 +213,7 @@ static void add(const fw_rule *r, const fw_wear_interval *iv, const course *c, d
     bool      is_early = iv->since_touch + a * iv->length < EARLY * (b - a) * iv->length;
     enum kind kind = nb < FADED * na ? FADES : na < FADED * nb ? GROWS : SMOOTH;
     /* with next to no damping the force of a touch grows from little: still a touch, unless it begins at nil */
-    if (is_early && kind == GROWS && na > 0.05 * nb) kind = SMOOTH;
+    if (is_early && kind == GROWS && na > GROWN * nb) kind = SMOOTH;
     if (is_early && kind == FADES) {
         double middle = 0.5 * (a + b);
         add_piece(r, iv, c, TOUCH, a, middle, to);
@@ -199,16 +223,46 @@ static void add(const fw_rule *r, const fw_wear_interval *iv, const course *c, d
     }
 }
 
-/* Cubic Hermite weights of both ends' values and slopes at the smooth nodes. */
+/* Cubic Hermite weights of both ends' values and slopes at the smooth nodes, and at the touch nodes. */
 #define EACH(f)                                                                                                        \
     {                                                                                                                  \
         f(0.11270166537925831), f(0.5), f(0.88729833462074169), f(0.5)                                                 \
+    }
+#define EACH_T(f)                                                                                                      \
+    {                                                                                                                  \
+        f(0.069431844202973712), f(0.33000947820757187), f(0.66999052179242813), f(0.93056815579702629)                \
     }
 #define VALUE(u)     ((1 + 2 * (u)) * (1 - (u)) * (1 - (u)))
 #define SLOPE(u)     ((u) * (1 - (u)) * (1 - (u)))
 #define END_VALUE(u) ((3 - 2 * (u)) * (u) * (u))
 #define END_SLOPE(u) (-(1 - (u)) * (u) * (u))
 static const double D0[4] = EACH(VALUE), S0[4] = EACH(SLOPE), D1[4] = EACH(END_VALUE), S1[4] = EACH(END_SLOPE);
+
+static const double D0_T[4] = EACH_T(VALUE), S0_T[4] = EACH_T(SLOPE), D1_T[4] = EACH_T(END_VALUE), S1_T[4] = EACH_T(END_SLOPE);
+
+/* An interval that is a touch from end to end: half of all. What add_piece would do, its nodes known beforehand. */
+static bool is_touch(fw_rule *r, const fw_wear_interval *restrict iv, fw_rule_nodes *restrict to)
+{
+    static const double END[] = {0, 0.17392742256872693, 0.5, 0.82607257743127307, 1};
+    size_t              last = iv->n_stages - 1;
+    double              na = iv->normal[0], nb = iv->normal[last], length = iv->length;
+    if (last < 2 || iv->since_touch >= EARLY * length || !(na > 0) || !(nb > 0)) return false;
+    if (nb < FADED * na || na <= GROWN * nb || !(iv->slip[0] * iv->slip[last] > 0)) return false;
+    know_stages(r, iv);
+    double s0 = length * iv->rate[0], s1 = length * iv->rate[1], normal[4] = {0}, slip[4] = {0};
+    for (size_t i = 0; i <= last; i++)
+        for (size_t q = 0; q < 4; q++)
+            normal[q] += r->to_touch[i][q] * iv->normal[i], slip[q] += r->to_touch[i][q] * iv->slip[i];
+    for (size_t q = 0; q < 4; q++) {
+        to->normal[q] = normal[q], to->slip[q] = slip[q], to->u[q] = NODE4[q], to->dt[q] = WEIGHT4[q] * length;
+        to->from[q] = END[q], to->to[q] = END[q + 1];
+        to->depth[q] = D0_T[q] * iv->depth[0] + S0_T[q] * s0 + D1_T[q] * iv->depth[1] + S1_T[q] * s1;
+    }
+    double t_end = iv->since_touch + length;
+    weigh_touch(r, iv->since_touch / t_end, t_end, to);
+    to->n = 4;
+    return true;
+}
 
 bool fw_rule_is_smooth(fw_rule *r, fw_wear_rule rule, const fw_wear_interval *restrict iv, fw_rule_smooth *restrict to)
 {
@@ -243,7 +297,7 @@ bool fw_rule_is_smooth(fw_rule *r, fw_wear_rule rule, const fw_wear_interval *re
 static void at_end(const fw_rule *r, const fw_wear_interval *iv, fw_rule_nodes *to)
 {
     size_t last = iv->n_stages - 1;
-    to->n = 1, to->u[0] = to->from[0] = to->to[0] = 1, to->lift[0] = 1;
+    to->n = 1, to->u[0] = to->from[0] = to->to[0] = 1, to->lift[0] = to->lift2_from[0] = to->lift2_to[0] = 1;
     to->dt[0] = to->wide[0] = iv->length;
     to->normal[0] = iv->normal[last], to->slip[0] = iv->slip[last], to->depth[0] = iv->depth[1];
     for (size_t l = 0; l < r->n_laws; l++) to->along[l][0] = to->wall[l][0] = iv->length;
@@ -260,7 +314,10 @@ void fw_rule_apply(fw_rule *r, fw_wear_rule rule, const fw_wear_interval *iv, fw
     switch (rule) {
     case FW_WEAR_NAIVE: at_end(r, iv, to); return;
     case FW_WEAR_SINGULAR: through_ends(iv, &c); break;
-    case FW_WEAR_HERMITE: through_stages(r, iv, &c); break;
+    case FW_WEAR_HERMITE:
+        if (is_touch(r, iv, to)) return;
+        through_stages(r, iv, &c);
+        break;
     }
     /* The part [a, b] with a force. The signed law k d + c d' is smooth where the clamp at zero has a kink, so its zero is
      * found on the interpolant: a floe that leaves slides fast on its last millimetres and a step that counts whole nodes

@@ -22,6 +22,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "abrasion/power.h"
 #include "floewear/scenario.h"
 
 enum {
@@ -55,6 +56,7 @@ typedef struct fw_rule_nodes {
     size_t n;
     double u[FW_RULE_NODES], from[FW_RULE_NODES], to[FW_RULE_NODES]; /* shares of the interval's length */
     double normal[FW_RULE_NODES], slip[FW_RULE_NODES], depth[FW_RULE_NODES], lift[FW_RULE_NODES];
+    double lift2_from[FW_RULE_NODES], lift2_to[FW_RULE_NODES]; /* lift^2 where the node's part begins and ends */
     double dt[FW_RULE_NODES], wide[FW_RULE_NODES]; /* weights [s] */
     double along[FW_MAX_LAWS][FW_RULE_NODES], wall[FW_MAX_LAWS][FW_RULE_NODES];
 } fw_rule_nodes;
@@ -80,10 +82,14 @@ typedef struct fw_rule {
     size_t n_laws;
     double exponent[FW_MAX_LAWS];
     double touch[FW_RULE_TOUCH][FW_RULE_TOUCH]; /* coefficients of the touch nodes' Lagrange polynomials */
+    /* 1 / (k + e) for moments of t^(e-1): e of path on the wall, of each law along the contact and on the wall */
+    double   wide[FW_RULE_TOUCH], along[FW_MAX_LAWS][FW_RULE_TOUCH], wall[FW_MAX_LAWS][FW_RULE_TOUCH];
+    fw_power start[FW_MAX_LAWS]; /* t^e along the contact */
     size_t n_stages;                            /* the stages of the interval before: methods seldom change */
     double at[FW_WEAR_STAGES];
     double to_power[FW_WEAR_STAGES][FW_WEAR_STAGES]; /* coefficient of u^k = sum over i of [k][i] value[i] */
     double to_node[FW_WEAR_STAGES][4];               /* value at smooth node q = sum over i of [i][q] value[i] */
+    double to_touch[FW_WEAR_STAGES][FW_RULE_TOUCH];  /* the same at touch nodes */
 } fw_rule;
 
 void fw_rule_init(fw_rule *r, size_t n_laws, const double *exponent);

@@ -61,12 +61,56 @@ uint32_t fw_random_u32(fw_random *r)
     return r->block[r->n_used++];
 }
 
+/* Of 64 bits 52: with the half added the numerator has 53, so no value rounds to 1. */
+static double to_uniform(uint64_t bits) { return ((double)(int64_t)(bits >> 12) + 0.5) * 0x1p-52; }
+
 double fw_random_uniform(fw_random *r)
 {
     uint64_t w0 = fw_random_u32(r), w1 = fw_random_u32(r);
-    uint64_t k = (w1 << 32 | w0) >> 12; /* 52 bits: with the half added the numerator has 53, so no value rounds to 1 */
 
-    return ((double)k + 0.5) * 0x1p-52;
+    return to_uniform(w1 << 32 | w0);
+}
+
+void fw_uniforms_stream(fw_uniforms *u, uint64_t seed, fw_purpose purpose, uint64_t id, uint64_t part)
+{
+    fw_random r;
+    fw_random_stream(&r, seed, purpose, id, part);
+    memset(u, 0, sizeof *u);
+    memcpy(u->key, r.key, sizeof u->key);
+    memcpy(u->tail, r.counter + 2, sizeof u->tail);
+    u->n_used = FW_UNIFORMS_READY;
+}
+
+/* Eight blocks side by side, so that their multiplications share vector instructions: one block alone is a chain of ten
+ * rounds that wait for each other. Words of 32 bits are held in 64, as wide as the products: no lane changes its width. */
+void fw_uniforms_refill(fw_uniforms *u)
+{
+    enum { N = FW_UNIFORMS_READY / 2 };
+    uint64_t c0[N], c1[N], c2[N], c3[N];
+    uint32_t k0 = u->key[0], k1 = u->key[1];
+    for (uint64_t i = 0; i < N; i++) {
+        c0[i] = low(u->n_blocks + i);
+        c1[i] = high(u->n_blocks + i);
+        c2[i] = u->tail[0];
+        c3[i] = u->tail[1];
+    }
+    for (int round = 0; round < 10; round++) {
+        for (int i = 0; i < N; i++) {
+            uint64_t p0 = PHILOX_M0 * c0[i], p1 = PHILOX_M1 * c2[i];
+            c0[i] = (p1 >> 32) ^ c1[i] ^ k0;
+            c1[i] = low(p1);
+            c2[i] = (p0 >> 32) ^ c3[i] ^ k1;
+            c3[i] = low(p0);
+        }
+        k0 += PHILOX_W0;
+        k1 += PHILOX_W1;
+    }
+    for (int i = 0; i < N; i++) {
+        u->ready[2 * i] = to_uniform(c1[i] << 32 | c0[i]);
+        u->ready[2 * i + 1] = to_uniform(c3[i] << 32 | c2[i]);
+    }
+    u->n_blocks += N;
+    u->n_used = 0;
 }
 
 static void gsl_set(void *state, unsigned long seed) { fw_random_stream(state, seed, FW_STREAM_TEST, 0, 0); }

@@ -28,6 +28,25 @@ void     fw_random_stream(fw_random *r, uint64_t seed, fw_purpose purpose, uint6
 uint32_t fw_random_u32(fw_random *r);
 double   fw_random_uniform(fw_random *r); /* open (0, 1), 53 bits, two words each */
 
+/* A stream read as uniforms alone, eight blocks at a time: the numbers of fw_random_uniform, in its order, in two
+ * thirds of the time, with AVX-512 in a fifth. A copy goes on independently. */
+enum { FW_UNIFORMS_READY = 16 };
+typedef struct fw_uniforms {
+    uint64_t n_blocks; /* made so far */
+    uint32_t key[2], tail[2];
+    uint32_t n_used; /* of ready; FW_UNIFORMS_READY: none is left */
+    double   ready[FW_UNIFORMS_READY];
+} fw_uniforms;
+
+void fw_uniforms_stream(fw_uniforms *u, uint64_t seed, fw_purpose purpose, uint64_t id, uint64_t part);
+void fw_uniforms_refill(fw_uniforms *u); /* for fw_uniforms_next */
+
+static inline double fw_uniforms_next(fw_uniforms *u)
+{
+    if (u->n_used == FW_UNIFORMS_READY) fw_uniforms_refill(u);
+    return u->ready[u->n_used++];
+}
+
 /* gsl_rng_alloc(fw_rng_philox()) then fw_rng_stream(); gsl_rng_set(r, s) is the stream (s, FW_STREAM_TEST, 0, 0). */
 const gsl_rng_type *fw_rng_philox(void);
 void                fw_rng_stream(gsl_rng *r, uint64_t seed, fw_purpose purpose, uint64_t id, uint64_t part);

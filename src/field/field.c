@@ -44,26 +44,29 @@ static const int64_t MAX_INDEX = 1 << 20; /* of a column or row: 1e8 m, where do
 /* A tile, finished at level N_LEVELS. Coordinates of floes beyond end[level] are not set yet. */
 typedef struct tile {
     fw_tile public;
-    fw_random random;
-    int       level;             /* batches placed */
-    size_t    end[N_LEVELS + 1]; /* floes [end[k - 1], end[k]) are batch k */
-    double   *block;             /* x, y, radius, thickness of public */
+    fw_uniforms random;
+    int         level;             /* batches placed */
+    size_t      end[N_LEVELS + 1]; /* floes [end[k - 1], end[k]) are batch k */
+    double      block[];           /* x, y, radius, thickness of public */
 } tile;
+
+typedef struct floe_size {
+    double diameter, thickness;
+} floe_size;
 
 struct fw_field {
     fw_field_settings settings;
     fw_sizes          sizes;
     double            length; /* L [m] */
     fw_packing        packing;
+    uint64_t          n_tries[N_LEVELS]; /* of the last batch of each level */
+    floe_size        *sizes_drawn;       /* workspace */
+    size_t            sizes_capacity;
     tile            **table; /* open addressing by (column, row)  (table_size, a power of two) */
     size_t            table_size, n_tiles;
     int64_t           forgotten; /* tiles of this column and beyond may have been dropped; INT64_MAX: none */
     fw_field_census   census;
 };
-
-typedef struct floe_size {
-    double diameter, thickness;
-} floe_size;
 
 /* --- settings ---------------------------------------------------------------------------------------------------- */
 
@@ -86,18 +89,12 @@ fw_status fw_field_create(fw_field **out, const fw_field_settings *s, fw_msg *m)
     return FW_OK;
 }
 
-static void free_tile(tile *t)
-{
-    if (!t) return;
-    free(t->block);
-    free(t);
-}
-
 void fw_field_destroy(fw_field *f)
 {
     if (!f) return;
-    for (size_t k = 0; k < f->table_size; k++) free_tile(f->table[k]);
+    for (size_t k = 0; k < f->table_size; k++) free(f->table[k]);
     free(f->table);
+    free(f->sizes_drawn);
     fw_packing_free(&f->packing);
     free(f);
 }
@@ -141,7 +138,7 @@ static fw_status rebuild_table(fw_field *f, size_t size, int64_t keep_below, fw_
         tile *t = old[k];
         if (!t) continue;
         if (t->public.column >= keep_below) {
-            free_tile(t);
+            free(t);
             continue;
         }
         table[slot_of(f, t->public.column, t->public.row)] = t;
@@ -153,11 +150,45 @@ static fw_status rebuild_table(fw_field *f, size_t size, int64_t keep_below, fw_
 
 /* --- making a tile ----------------------------------------------------------------------------------------------- */
 
-static int by_size_descending(const void *a, const void *b)
+/* Larger diameter first, then thicker; floes that are alike in both are the same floe. */
+static bool comes_before(floe_size a, floe_size b)
 {
-    const floe_size *s = a, *t = b;
-    if (s->diameter != t->diameter) return s->diameter < t->diameter ? 1 : -1;
-    return (s->thickness < t->thickness) - (s->thickness > t->thickness);
+    return a.diameter != b.diameter ? a.diameter > b.diameter : a.thickness > b.thickness;
+}
+
+/* Radii and thicknesses of the drawn floes, largest first. They were drawn class by class with growing diameters, so the
+ * classes' ends are merged. */
+static void sort_by_size(tile *t, const floe_size *drawn)
+{
+    fw_tile *p = &t->public;
+    size_t   run_begin[FW_MAX_CLASSES], run_end[FW_MAX_CLASSES], n_runs = 0;
+    for (size_t i = 0; i < p->n_floes; i++) {
+        if (i > 0 && drawn[i].thickness == drawn[i - 1].thickness) {
+            run_end[n_runs - 1]++;
+        } else {
+            run_begin[n_runs] = i;
+            run_end[n_runs++] = i + 1;
+        }
+    }
+    for (size_t i = 0; i < p->n_floes; i++) {
+        size_t first = 0;
+        for (size_t k = 1; k < n_runs; k++) {
+            if (comes_before(drawn[run_end[k] - 1], drawn[run_end[first] - 1])) first = k;
+        }
+        floe_size next = drawn[--run_end[first]];
+        if (run_end[first] == run_begin[first]) { /* used up: the last run takes its number */
+            run_begin[first] = run_begin[--n_runs];
+            run_end[first] = run_end[n_runs];
+        }
+        /* Steps back only where two neighbours of a class fell by rounding or two classes are equally thick. */
+        size_t at = i;
+        for (; at > 0 && comes_before(next, (floe_size){2.0 * p->radius[at - 1], p->thickness[at - 1]}); at--) {
+            p->radius[at] = p->radius[at - 1];
+            p->thickness[at] = p->thickness[at - 1];
+        }
+        p->radius[at] = 0.5 * next.diameter;
+        p->thickness[at] = next.thickness;
+    }
 }
 
 /* Batch k ends where k / N_LEVELS of the tile's ice area is down: the same sizes, nearly, in every tile. */
@@ -176,36 +207,32 @@ static void split_into_batches(tile *t)
     t->end[N_LEVELS] = n;
 }
 
-/* The multiset of the tile's floes: n = C L^2 / E[area] rounded at random, n stratified quantiles of the joint law. */
-static fw_status draw_floes(const fw_field *f, tile *t, fw_msg *m)
+/* A tile with the multiset of its floes: n = C L^2 / E[area] rounded at random, n stratified quantiles of the joint law. */
+static fw_status draw_floes(fw_field *f, int64_t column, int64_t row, tile **out, fw_msg *m)
 {
     const fw_field_settings *s = &f->settings;
-    fw_tile                 *p = &t->public;
-    floe_size               *floes;
-    fw_random_stream(&t->random, s->seed, FW_STREAM_FIELD, s->id, name_of(p->column, p->row));
+    fw_uniforms              random;
+    tile                    *t;
+    fw_uniforms_stream(&random, s->seed, FW_STREAM_FIELD, s->id, name_of(column, row));
     double mean = s->concentration * f->length * f->length / f->sizes.mean_area;
-    p->n_floes = (size_t)(mean + fw_random_uniform(&t->random));
-    FW_TRY(fw_alloc(&floes, p->n_floes, sizeof *floes, "floes of an ice tile", m));
-    fw_status status = fw_alloc(&t->block, 4 * p->n_floes, sizeof *t->block, "floes of an ice tile", m);
-    if (status != FW_OK) {
-        free(floes);
-        return status;
+    size_t n = (size_t)(mean + fw_uniforms_next(&random));
+    FW_TRY(fw_grow(&f->sizes_drawn, &f->sizes_capacity, n, sizeof *f->sizes_drawn, "floes of an ice tile", m));
+    FW_TRY(fw_alloc(&t, 1, sizeof *t + 4 * n * sizeof *t->block, "floes of an ice tile", m));
+    t->public = (fw_tile){.column = column,
+                          .row = row,
+                          .n_floes = n,
+                          .x = t->block,
+                          .y = t->block + n,
+                          .radius = t->block + 2 * n,
+                          .thickness = t->block + 3 * n};
+    for (size_t i = 0; i < n; i++) {
+        double q = ((double)i + fw_uniforms_next(&random)) / (double)n;
+        fw_sizes_draw(&f->sizes, q, &f->sizes_drawn[i].diameter, &f->sizes_drawn[i].thickness);
     }
-    p->x = t->block;
-    p->y = p->x + p->n_floes;
-    p->radius = p->y + p->n_floes;
-    p->thickness = p->radius + p->n_floes;
-    for (size_t i = 0; i < p->n_floes; i++) {
-        double q = ((double)i + fw_random_uniform(&t->random)) / (double)p->n_floes;
-        fw_sizes_draw(&f->sizes, q, &floes[i].diameter, &floes[i].thickness);
-    }
-    qsort(floes, p->n_floes, sizeof *floes, by_size_descending);
-    for (size_t i = 0; i < p->n_floes; i++) {
-        p->radius[i] = 0.5 * floes[i].diameter;
-        p->thickness[i] = floes[i].thickness;
-    }
-    free(floes);
+    t->random = random;
+    sort_by_size(t, f->sizes_drawn);
     split_into_batches(t);
+    *out = t;
     return FW_OK;
 }
 
@@ -214,26 +241,18 @@ static fw_status new_tile(fw_field *f, int64_t column, int64_t row, tile **out, 
     if (2 * (f->n_tiles + 1) > f->table_size) {
         FW_TRY(rebuild_table(f, f->table_size ? 2 * f->table_size : 64, INT64_MAX, m));
     }
-    tile *t;
-    FW_TRY(fw_alloc(&t, 1, sizeof *t, "ice tile", m));
-    t->public.column = column;
-    t->public.row = row;
-    fw_status status = draw_floes(f, t, m);
-    if (status != FW_OK) {
-        free_tile(t);
-        return status;
-    }
-    f->table[slot_of(f, column, row)] = t;
+    FW_TRY(draw_floes(f, column, row, out, m));
+    f->table[slot_of(f, column, row)] = *out;
     f->n_tiles++;
-    *out = t;
     return FW_OK;
 }
 
 /* --- order of packing -------------------------------------------------------------------------------------------- */
 
 typedef struct neighbour {
-    int64_t column, row;
-    int     level; /* batches it must have, no more and no less, when the tile's next batch is placed */
+    int64_t     column, row;
+    int         level; /* batches it must have, no more and no less, when the tile's next batch is placed */
+    const tile *tile;  /* NULL when that is none */
 } neighbour;
 
 static bool is_odd(int64_t i) { return (i & 1) != 0; }
@@ -242,12 +261,12 @@ static int list_neighbours(const tile *t, int level, neighbour list[8])
 {
     int64_t c = t->public.column, r = t->public.row;
     int     n = 0, beside = is_odd(c) == is_odd(level) ? level : level - 1;
-    list[n++] = (neighbour){c - 1, r, beside};
-    list[n++] = (neighbour){c + 1, r, beside};
+    list[n++] = (neighbour){c - 1, r, beside, NULL};
+    list[n++] = (neighbour){c + 1, r, beside, NULL};
     if (is_odd(r)) {
         for (int64_t i = -1; i <= 1; i++) {
-            list[n++] = (neighbour){c + i, r - 1, N_LEVELS};
-            list[n++] = (neighbour){c + i, r + 1, N_LEVELS};
+            list[n++] = (neighbour){c + i, r - 1, N_LEVELS, NULL};
+            list[n++] = (neighbour){c + i, r + 1, N_LEVELS, NULL};
         }
     }
     return n;
@@ -265,25 +284,29 @@ static fw_status place_batch(fw_field *f, tile *t, const neighbour *list, int n,
                           .wraps_y = !is_odd(self->row)};
     double         cell = 1.2 * sqrt(f->sizes.mean_area); /* flat optimum: 1 to 2 cost the same, 0.4 a third more */
     FW_TRY(fw_packing_begin(p, &box, self->n_floes, 0.5 * f->sizes.max_diameter, cell, m));
-    size_t    begin = t->end[t->level], end = t->end[t->level + 1], n_left;
-    fw_random random = t->random; /* a batch that fails leaves the tile as it was: it fails again when asked again */
-    for (size_t i = 0; i < begin; i++) FW_TRY(fw_packing_own(p, self->x[i], self->y[i], self->radius[i], m));
+    size_t      begin = t->end[t->level], end = t->end[t->level + 1], n_left;
+    fw_uniforms random = t->random; /* a batch that fails leaves the tile as it was: it fails again when asked again */
+    FW_TRY(fw_packing_own(p, begin, self->x, self->y, self->radius, m));
     for (int k = 0; k < n; k++) {
-        const tile *other = find_tile(f, list[k].column, list[k].row);
-        if (!other || list[k].level == 0) continue;
+        const tile *other = list[k].tile;
+        if (!other) continue;
         FW_CHECK(other->level == list[k].level, m, FW_E_INTERNAL, "ice tile (%lld, %lld) is at batch %d, wanted %d",
                  (long long)list[k].column, (long long)list[k].row, other->level, list[k].level);
-        for (size_t i = 0; i < other->end[other->level]; i++) {
-            FW_TRY(fw_packing_obstacle(p, other->public.x[i], other->public.y[i], other->public.radius[i], m));
-        }
+        FW_TRY(fw_packing_obstacles(p, other->end[other->level], other->public.x, other->public.y,
+                                    other->public.radius, m));
     }
-    FW_TRY(fw_packing_place(p, end - begin, self->radius + begin, &random, &n_left, m));
-    FW_CHECK(
-        n_left == 0, m, FW_E_NUMERIC,
-        "ice field: tile (%lld, %lld) was to be packed to %.1f %%, reached without overlap: %.1f %% (%zu of its %zu "
-        "floes still overlap); wanted: a lower concentration or more unlike floe sizes",
-        (long long)self->column, (long long)self->row, 100.0 * f->settings.concentration,
-        100.0 * fw_packing_free_share(p), n_left, self->n_floes);
+    uint64_t *n_expected = &f->n_tries[t->level], n_before = p->cost.n_tries;
+    FW_TRY(fw_packing_place(p, end - begin, self->radius + begin, *n_expected, &random, &n_left, m));
+    *n_expected = p->cost.n_tries - n_before;
+    if (n_left > 0) {
+        double share;
+        FW_TRY(fw_packing_free_share(p, &share, m));
+        return fw_fail(m, FW_E_NUMERIC,
+                       "ice field: tile (%lld, %lld) was to be packed to %.1f %%, reached without overlap: %.1f %% (%zu "
+                       "of its %zu floes still overlap); wanted: a lower concentration or more unlike floe sizes",
+                       (long long)self->column, (long long)self->row, 100.0 * f->settings.concentration, 100.0 * share,
+                       n_left, self->n_floes);
+    }
     t->random = random;
     if (end > 0) { /* an empty workspace may have no arrays at all */
         memcpy(self->x, p->x, end * sizeof *self->x);
@@ -316,12 +339,15 @@ static fw_status advance(fw_field *f, int64_t column, int64_t row, int level, ti
         neighbour list[8];
         int       n = list_neighbours(t, t->level + 1, list);
         for (int k = 0; k < n; k++) {
-            if (list[k].level > 0) FW_TRY(advance(f, list[k].column, list[k].row, list[k].level, NULL, m));
+            if (list[k].level == 0) continue;
+            tile *beside;
+            FW_TRY(advance(f, list[k].column, list[k].row, list[k].level, &beside, m));
+            list[k].tile = beside;
         }
         FW_TRY(place_batch(f, t, list, n, m));
         if (t->level == N_LEVELS) count_tile(f, t);
     }
-    if (out) *out = t;
+    *out = t;
     return FW_OK;
 }
 

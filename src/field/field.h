@@ -12,9 +12,10 @@
  * unbiased; redrawing a size when a place is refused would cut the mean diameter by a fifth at 40 % and two fifths at
  * 60 %. Then floes are placed largest first (packing.h) in batches that alternate between neighbouring tiles (field.c).
  *
- * Measured, Release, one core of a 2-core machine shared with other work, ms per tile at 10 / 40 / 60 / 65 %: five
- * classes 0.5-1.3 m 0.01 / 0.06 / 0.3 / 0.6 (24 / 96 / 144 / 156 floes), {0.3 m: 2, 0.5 m: 1} 0.03 / 0.15 / 0.7 / 1.5
- * (79 / 318 / 477 / 516 floes). The extreme, h = 0.0855 m alone at 65 %, has 72,000 floes a tile and takes 2 s. */
+ * Measured, Release with AVX-512, one core of a 2-core machine shared with other work, ms per tile at 10 / 40 / 60 /
+ * 65 %: five classes 0.5-1.3 m 0.002 / 0.013 / 0.065 / 0.17 (24 / 96 / 144 / 156 floes), {0.3 m: 2, 0.5 m: 1} 0.006 /
+ * 0.06 / 0.19 / 0.44 (79 / 318 / 477 / 516 floes). Without AVX-512 40 % and more take 1.4 times as long, without AVX
+ * 1.6 times. The extreme, h = 0.0855 m alone at 65 %, has 72,000 floes a tile and takes 0.6 s. */
 #ifndef FW_FIELD_FIELD_H
 #define FW_FIELD_FIELD_H
 

@@ -34,18 +34,19 @@ fw_status fw_cells_build(fw_cells *c, size_t n, const double *x, const double *y
     size_t n_cells = c->nx * c->ny;
     FW_TRY(fw_grow(&c->start, &c->start_capacity, n_cells + 1, sizeof *c->start, "cell grid", m));
     FW_TRY(fw_grow(&c->item, &c->item_capacity, n + 1, sizeof *c->item, "cell grid", m));
-    memset(c->start, 0, (n_cells + 1) * sizeof *c->start);
+    FW_TRY(fw_grow(&c->cell, &c->cell_capacity, n + 1, sizeof *c->cell, "cell grid", m));
+    memset(c->start, 0, n_cells * sizeof *c->start);
     c->n_items = n;
-    for (size_t i = 0; i < n; i++) c->start[cell_of(c, x[i * stride], y[i * stride]) + 1]++;
-    for (size_t k = 0; k < n_cells; k++) c->start[k + 1] += c->start[k];
-    /* Filled from the back, so that start[k] ends where it has to and items of a cell stay ascending. */
-    for (size_t i = n; i-- > 0;) {
-        size_t k = cell_of(c, x[i * stride], y[i * stride]);
-        c->item[--c->start[k + 1]] = i;
+    for (size_t i = 0; i < n; i++) {
+        c->cell[i] = cell_of(c, x[i * stride], y[i * stride]);
+        c->start[c->cell[i]]++;
     }
-    /* start[k + 1] now holds the beginning of cell k: shift back by one. */
-    memmove(c->start, c->start + 1, n_cells * sizeof *c->start);
+    size_t end = 0;
+    for (size_t k = 0; k < n_cells; k++) c->start[k] = end += c->start[k];
     c->start[n_cells] = n;
+    /* Filled from the back: start[k] goes down from the end of cell k to where it begins, and items of a cell stay
+     * ascending. */
+    for (size_t i = n; i-- > 0;) c->item[--c->start[c->cell[i]]] = i;
     return FW_OK;
 }
 
@@ -53,6 +54,7 @@ void fw_cells_free(fw_cells *c)
 {
     free(c->start);
     free(c->item);
+    free(c->cell);
     memset(c, 0, sizeof *c);
 }
 

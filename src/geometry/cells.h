@@ -11,7 +11,8 @@ typedef struct fw_cells {
     size_t  nx, ny;
     size_t *start; /* (nx * ny + 1) */
     size_t *item;  /* (n_items) points sorted by cell, ascending inside a cell */
-    size_t  n_items, item_capacity, start_capacity;
+    size_t *cell;  /* (n_items) of each point, while building */
+    size_t  n_items, item_capacity, start_capacity, cell_capacity;
 } fw_cells;
 
 /* Points x[i * stride], y[i * stride]; at most 16384 cells: the side grows over size where the points lie wide. */

@@ -7,6 +7,10 @@
 
 double fw_ring_angle(double x, double y); /* theta of a point, in [0, 2 pi) */
 
+/* Change of theta on the shorter way from point 0 to point 1, in [-pi, pi]; a few products for the small turns of one step,
+ * without arctangent. */
+double fw_ring_turn(double x0, double y0, double x1, double y1);
+
 /* Lay down on the ring what a patch [low, high] leaves there while each of its edges moves evenly from angle [0] to angle [1]:
  *
  *        share     ______________             the low edge sweeps over the arcs of one slope, the high edge over those of the

@@ -94,8 +94,7 @@ void fw_books_keep(const fw_cluster *c, const fw_books *books)
 
 /* The floe lets go within the step. Stages beyond the release are no force that ever was, and a polynomial through them bulges (up to
  * a tenth of a hit's depth); so the interval ends where the force is gone, and it falls straight until then. */
-static void end_where_it_lets_go(const fw_cluster *c, const fw_pair *p, const fw_member *a, const fw_method *me,
-                                 fw_wear_interval *iv)
+static void end_where_it_lets_go(const fw_cluster *c, const fw_pair *p, const fw_method *me, fw_wear_interval *iv)
 {
     double h = iv->length, gone = fw_cluster_lets_go(c, p, me);
     double u = gone / h, d1 = iv->depth[1] - iv->depth[0], r0 = -iv->rate[0], r1 = -iv->rate[1];
@@ -105,11 +104,9 @@ static void end_where_it_lets_go(const fw_cluster *c, const fw_pair *p, const fw
     while (s + 1 < iv->n_stages && iv->at[s] < u) s++; /* any stage after the release tells where slip goes */
     double slip = iv->slip[0] + (iv->slip[s] - iv->slip[0]) * u / iv->at[s];
     double depth = iv->depth[0] + u * (-h * r0 + u * (c2 + u * c3)), rate = -r0 + u * (2 * c2 + 3 * u * c3) / h;
-    double turn = fw_ring_angle(a->y1[FW_X], a->y1[FW_Y]) - iv->angle[0];
-    turn -= 6.283185307179586 * round(turn / 6.283185307179586);
     iv->length = gone, iv->n_stages = 2;
     iv->at[1] = 1, iv->normal[1] = 0, iv->slip[1] = slip;
-    iv->depth[1] = depth, iv->rate[1] = rate, iv->angle[1] = iv->angle[0] + turn * u;
+    iv->depth[1] = depth, iv->rate[1] = rate, iv->angle[1] = iv->angle[0] + u * (iv->angle[1] - iv->angle[0]);
 }
 
 void fw_books_wear(const fw_cluster *c, const fw_books *books)
@@ -117,7 +114,7 @@ void fw_books_wear(const fw_cluster *c, const fw_books *books)
     const fw_method *me = books->setup->method;
     if (!books->wear->is_open) return;
     for (size_t k = 0; k < c->n_pairs; k++) {
-        const fw_pair *p = &c->pairs[k];
+        fw_pair *p = &c->pairs[k];
         if (p->b != FW_WALL) continue;
         const fw_member *a = &c->members[p->a];
         const fw_body   *body = &books->world->bodies[a->index];
@@ -128,11 +125,15 @@ void fw_books_wear(const fw_cluster *c, const fw_books *books)
         iv.depth[0] = p->since_touch > 0 ? p->depth[0] : 0; /* landed on the touch to rounding */
         iv.depth[1] = p->depth[last];
         iv.rate[0] = p->rate[0], iv.rate[1] = p->rate[last];
-        iv.angle[0] = fw_ring_angle(a->y0[FW_X], a->y0[FW_Y]), iv.angle[1] = fw_ring_angle(a->y1[FW_X], a->y1[FW_Y]);
+        /* the angle of the touch, and from there on one small turn after the other */
+        double from = p->wear_until == c->t0 && p->since_touch > 0 ? p->wear_angle : fw_ring_angle(a->y0[FW_X], a->y0[FW_Y]);
+        double to = from + fw_ring_turn(a->y0[FW_X], a->y0[FW_Y], a->y1[FW_X], a->y1[FW_Y]);
+        iv.angle[0] = from, iv.angle[1] = to;
+        p->wear_until = c->t1, p->wear_angle = to;
         iv.n_stages = me->n_stages;
         for (size_t s = 0; s < me->n_stages; s++)
             iv.at[s] = me->c[s], iv.normal[s] = fw_pair_signed_normal(p, s), iv.slip[s] = p->slip[s];
-        if (iv.normal[0] > 0 && iv.normal[last] <= 0) end_where_it_lets_go(c, p, a, me, &iv);
+        if (iv.normal[0] > 0 && iv.normal[last] <= 0) end_where_it_lets_go(c, p, me, &iv);
         iv.radius = a->radius, iv.thickness = body->thickness;
         fw_wear_collect(books->wear, &iv);
     }

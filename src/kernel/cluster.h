@@ -28,6 +28,7 @@ typedef struct fw_member {
     double   X, Y, U[4];                /* predicted stage position and the velocity it was predicted with */
     double   resistance, ease;          /* 1 + hg drag_rate and its inverse */
     double   drag_rate, drag_per_mass;  /* drag x |u - v| / mass [1/s] that V was built with; drag / mass [1/m] */
+    double   drag_speed; /* that |u - v| */
     double   own_inv_mass, inv_inertia; /* of the floe */
     /* the step: state at both ends, slopes of the state at the stages: (vx, vy, spin, 0, ax, ay, spin's, 0) */
     double   y0[8], y1[8], k[FW_MAX_STAGES][8];
@@ -54,6 +55,7 @@ typedef struct fw_pair {
     double               t_touch, since_touch;
     double               normal[FW_MAX_STAGES], friction[FW_MAX_STAGES], slip[FW_MAX_STAGES], rate[FW_MAX_STAGES];
     double               depth[FW_MAX_STAGES], dir[FW_MAX_STAGES][2];
+    double  wear_until, wear_angle; /* ring angle at the end of the last interval that wore, and when */
     double  load, load_tried; /* of this touch so far, and of the tried step: see wear_error in cluster.c */
     int32_t candidate;        /* its entry in the lists of who may touch whom */
 } fw_pair;

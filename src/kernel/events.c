@@ -143,7 +143,7 @@ static double too_late(const fw_kernel *k, const fw_cluster *a, const fw_cluster
 {
     const fw_setup *s = &k->traffic.setup;
     double          longest = fw_larger(a ? t - a->t0 : 0, b ? t - b->t0 : 0);
-    return fw_larger(1e3 * small, 10 * s->tolerance * s->velocity_scale * longest) + 1e-9;
+    return 30 * fw_larger(small, s->tolerance * s->velocity_scale * longest) + 1e-9;
 }
 
 /* Where the clusters of a candidate's floes stand at the touch. A step that was cut is another step than the one its cubic came from, so

@@ -50,8 +50,9 @@ double fw_kernel_ice_margin(const fw_kernel *k) { return k->traffic.setup.horizo
 
 void fw_kernel_needs_ice(const fw_kernel *k, const fw_world *w, double *from, double *low, double *high)
 {
-    double r = w->structure_radius, margin = fw_kernel_ice_margin(k);
-    *from = *low = -r, *high = r;
+    /* Floes that the structure reaches before the next listing wake with it (listing.c): their far rims count. */
+    double margin = fw_kernel_ice_margin(k), r = w->structure_radius + 2 * w->max_radius;
+    *from = -r - k->traffic.setup.horizon, *low = -r, *high = r;
     for (size_t i = 0; i < w->n_bodies; i++) {
         const fw_body *b = &w->bodies[i];
         *from = fw_smaller(*from, b->x - b->radius);

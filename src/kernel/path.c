@@ -108,13 +108,17 @@ double fw_path_root(double gap0, double rate0, double gap1, double rate1, double
         }
         if (gap0 + hi * (s0 + hi * (c2 + c3 * hi)) > 0) return INFINITY;
     }
-    double lo = 0;
+    /* Newton from wherever the bracket is, bisection when it leaves it. */
+    double lo = 0, u = gap1 > 0 ? 0.5 * hi : hi * gap0 / (gap0 - gap1);
     for (int n = 0; n < 100 && hi - lo > 1e-15; n++) {
-        double u = 0.5 * (lo + hi);
-        if (gap0 + u * (s0 + u * (c2 + c3 * u)) > 0)
+        if (!(u > lo && u < hi)) u = 0.5 * (lo + hi);
+        double g = gap0 + u * (s0 + u * (c2 + u * c3)), slope = s0 + u * (2 * c2 + 3 * u * c3), next = u - g / slope;
+        if (g > 0)
             lo = u;
         else
             hi = u;
+        if (fabs(next - u) < 1e-15) return (g > 0 && next < hi ? next : hi) * h;
+        u = next;
     }
     return hi * h;
 }
@@ -134,14 +138,12 @@ static double polish(const fw_path *a, const fw_path *b, double at, double low, 
     return at;
 }
 
-double fw_path_touch(const fw_path *a, const fw_path *b, double from, double until)
+double fw_path_touch(const fw_path *a, const fw_path *b, double from, double until, double gap, double rate)
 {
     /* Speeds are bounded, so a wide gap is skipped by its bound. In the last tenth of reach the ways are nearly
      * straight and the cubic finds the touch. (Skipping alone needs hundreds of looks at two floes that drift side by side
      * and close slowly.) */
     double reach = a->radius + b->radius, bound = a->bound + b->bound, tiny = 1e-12 * reach, close = 0.1 * reach;
-    double gap, rate;
-    fw_path_gap(a, b, from, &gap, &rate);
     if (gap <= tiny && rate > 0) return from;
     if (!(bound > 0)) return INFINITY;
     for (double t = from; t < until;) {

@@ -32,9 +32,9 @@ fw_place fw_path_at(const fw_path *p, double t);
 /* Gap between the rims (positive: apart) and how fast it closes. */
 void fw_path_gap(const fw_path *a, const fw_path *b, double t, double *gap, double *closing);
 
-/* First instant in [from, until] at which the rims touch while they close; INFINITY: none. Rims that overlap and part at `from` touch
+/* First instant in [from, until] at which the rims touch while they close; INFINITY: none. gap, closing: at from. Rims that overlap and part at `from` touch
  * only when they have parted and come back. */
-double fw_path_touch(const fw_path *a, const fw_path *b, double from, double until);
+double fw_path_touch(const fw_path *a, const fw_path *b, double from, double until, double gap, double closing);
 
 /* First root in (0, h] of the cubic through (gap0, rate0) and (gap1, rate1), rate: closing is positive; INFINITY: none. */
 double fw_path_root(double gap0, double rate0, double gap1, double rate1, double h);

@@ -89,7 +89,7 @@ void fw_stage_start(fw_cluster *c, const fw_books *books)
 /* Velocity without contact impulses, drag implicit with a given |u - v|: V = (vr + hg K u) / (1 + hg K). */
 static inline void free_velocity(const fw_setup *set, fw_member *m, double hg, double speed)
 {
-    m->drag_rate = m->drag_per_mass * speed;
+    m->drag_rate = m->drag_per_mass * speed, m->drag_speed = speed;
     m->resistance = 1 + hg * m->drag_rate;
     double f = 1 / m->resistance;
     m->V[0] = (m->r[FW_VX] + hg * m->drag_rate * set->speed) * f;
@@ -171,13 +171,13 @@ static double renew_drag(fw_cluster *c, const fw_setup *set, double hg, double e
     double largest = 0;
     for (size_t i = 0; i < c->n_members; i++) {
         fw_member *m = &c->members[i];
-        double     speed = relative_speed(set, m->V[0], m->V[1]);
-        /* what the new drag would change, to first order: most floes need no renewal */
-        double     change = hg * fabs(m->drag_per_mass * speed - m->drag_rate) * speed * m->ease;
+        double     rx = set->speed - m->V[0], r2 = rx * rx + m->V[1] * m->V[1], was = m->drag_speed;
+        /* what the new drag would change, to first order: most floes need no renewal. |r^2 - s^2| / 2 = |r - s| r or so. */
+        double change = 0.5 * hg * m->drag_per_mass * fabs(r2 - was * was) * m->ease;
         if (!(change > enough)) continue;
         double jx = m->V[0] * m->resistance - (m->r[FW_VX] + hg * m->drag_rate * set->speed),
                jy = m->V[1] * m->resistance - m->r[FW_VY];
-        free_velocity(set, m, hg, speed);
+        free_velocity(set, m, hg, sqrt(r2));
         m->V[0] += jx * m->ease, m->V[1] += jy * m->ease;
         largest = fw_larger(largest, change);
     }

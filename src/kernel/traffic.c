@@ -302,7 +302,7 @@ void fw_traffic_check(fw_traffic *t, int32_t c)
         double  gap, closing;
         fw_path_gap(&a, &b, t->now, &gap, &closing);
         e->clear = t->now + (gap > 0 ? gap / bound : 0);
-        if (!(gap > speed * (until - t->now))) touch = fw_path_touch(&a, &b, t->now, until);
+        if (!(gap > speed * (until - t->now))) touch = fw_path_touch(&a, &b, t->now, until, gap, closing);
     }
     if (touch != e->touch) fw_traffic_touches_at(t, c, touch);
 }

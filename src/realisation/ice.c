@@ -10,6 +10,10 @@
  * structure in a drifting field, and the realisation says so. */
 static const double MAX_REACH = 5000;
 
+/* The window begins on the same ice however long the warm-up: runs that differ in it, or in accuracy, can be compared. After this way of
+ * the current [m] from where the origin lies in the middle of column 0. */
+static const double USUAL_WARM_UP = 120;
+
 static fw_status add_tile(fw_ice *ice, fw_world *w, int64_t column, int64_t row, fw_msg *m)
 {
     const fw_tile *t;
@@ -86,7 +90,8 @@ static fw_status supply(fw_ice *ice, fw_world *w, const fw_ice_need *need, bool 
     return FW_OK;
 }
 
-fw_status fw_ice_lay(fw_ice *ice, const fw_field_settings *s, fw_world *w, double half_width, double past, fw_msg *m)
+fw_status fw_ice_lay(fw_ice *ice, const fw_field_settings *s, fw_world *w, double half_width, double past,
+                      double warm_up_way, fw_msg *m)
 {
     memset(ice, 0, sizeof *ice);
     FW_TRY(fw_field_create(&ice->field, s, m));
@@ -95,8 +100,7 @@ fw_status fw_ice_lay(fw_ice *ice, const fw_field_settings *s, fw_world *w, doubl
     ice->row0 = -ice->row1;
     w->max_radius = fw_field_max_radius(ice->field);
     ice->past = past + w->max_radius;
-    /* At the start the origin lies in the middle of column 0; the ice downstream belongs to columns 0 and 1. */
-    w->drift = -0.5 * ice->length;
+    w->drift = -0.5 * ice->length + (USUAL_WARM_UP - warm_up_way);
     ice->next_column = (int64_t)floor((ice->past - w->drift) / ice->length);
     fw_ice_need need = {.from = -w->structure_radius};
     return supply(ice, w, &need, true, m);

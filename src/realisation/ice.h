@@ -28,8 +28,10 @@ typedef struct fw_ice {
     } *columns; /* (n_columns) in the world, newest last */
 } fw_ice;
 
-/* Lays the first columns round the structure: what would lie on it is not there. half_width: of the strip [m]. */
-fw_status fw_ice_lay(fw_ice *ice, const fw_field_settings *s, fw_world *w, double half_width, double past, fw_msg *m);
+/* Lays the first columns round the structure: what would lie on it is not there. half_width: of the strip; warm_up_way: way of the current
+ * before the window, which begins on the same ice whatever that is [m]. */
+fw_status fw_ice_lay(fw_ice *ice, const fw_field_settings *s, fw_world *w, double half_width, double past,
+                     double warm_up_way, fw_msg *m);
 /* To be called before every step with what that needs. */
 fw_status fw_ice_feed(fw_ice *ice, fw_world *w, const fw_ice_need *need, fw_msg *m);
 void      fw_ice_free(fw_ice *ice);

@@ -49,7 +49,8 @@ static fw_status lay(run *r, const fw_scenario *sc, fw_msg *m)
         FW_TRY(fw_plain_create(&r->plain, &r->setup, &r->model->numerics, PLAIN_INLET, m));
     else
         FW_TRY(fw_kernel_create(&r->kernel, &r->setup, m));
-    return fw_ice_lay(&r->ice, &f, r->world, r->setup.half_width, r->setup.downstream, m);
+    return fw_ice_lay(&r->ice, &f, r->world, r->setup.half_width, r->setup.downstream,
+                      sc->speed * fw_accuracy_warm_up(r->model, sc->speed), m);
 }
 
 static fw_status go(run *r, double t_end, double t_all, const fw_tick *tick, fw_status *stopped, fw_msg *m)

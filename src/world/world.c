@@ -24,7 +24,7 @@ static void block_free(fw_block *b)
 void fw_world_destroy(fw_world *w)
 {
     if (!w) return;
-    for (size_t i = 0; i < w->n_blocks; i++) block_free(&w->blocks[i]);
+    for (size_t i = 0; i < w->block_capacity; i++) block_free(&w->blocks[i]);
     free(w->blocks);
     free(w->bodies);
     free(w->contacts);
@@ -55,25 +55,22 @@ fw_status fw_world_add_block(fw_world *w, size_t n, const double *x, const doubl
                              const double *thickness, uint64_t first_name, fw_msg *m)
 {
     FW_TRY(fw_grow(&w->blocks, &w->block_capacity, w->n_blocks + 1, sizeof *w->blocks, "blocks of ice", m));
-    fw_block *b = &w->blocks[w->n_blocks];
-    memset(b, 0, sizeof *b);
-    FW_TRY(fw_alloc(&b->x, 4 * n, sizeof *b->x, "block of ice", m));
-    fw_status s = fw_alloc(&b->is_taken, n, sizeof *b->is_taken, "block of ice", m);
+    fw_block *b = &w->blocks[w->n_blocks]; /* zeroed, or with the memory of a dropped one */
+    FW_TRY(fw_grow(&b->x, &b->x_capacity, 4 * n + 1, sizeof *b->x, "block of ice", m));
+    FW_TRY(fw_grow(&b->is_taken, &b->taken_capacity, n + 1, sizeof *b->is_taken, "block of ice", m));
     b->y = b->x + n, b->radius = b->x + 2 * n, b->thickness = b->x + 3 * n;
     b->n = b->n_left = n;
     b->first_name = first_name;
-    b->x_min = INFINITY, b->x_max = -INFINITY;
+    double x_min = INFINITY, x_max = -INFINITY, max_radius = 0;
     for (size_t i = 0; i < n; i++) {
         b->x[i] = x[i], b->y[i] = y[i], b->radius[i] = radius[i], b->thickness[i] = thickness[i];
-        b->x_min = fmin(b->x_min, x[i]), b->x_max = fmax(b->x_max, x[i]);
-        b->max_radius = fmax(b->max_radius, radius[i]);
+        b->is_taken[i] = false;
+        x_min = x[i] < x_min ? x[i] : x_min, x_max = x[i] > x_max ? x[i] : x_max;
+        max_radius = radius[i] > max_radius ? radius[i] : max_radius;
     }
+    b->x_min = x_min, b->x_max = x_max, b->max_radius = max_radius;
+    FW_TRY(fw_cells_build(&b->cells, n, b->x, b->y, 1, fmax(8.0, b->max_radius), m));
     w->max_radius = fmax(w->max_radius, b->max_radius);
-    if (s == FW_OK) s = fw_cells_build(&b->cells, n, b->x, b->y, 1, fmax(8.0, b->max_radius), m);
-    if (s != FW_OK) {
-        block_free(b);
-        return s;
-    }
     w->n_blocks++;
     w->block_changes++;
     return FW_OK;
@@ -83,10 +80,10 @@ void fw_world_drop_blocks_beyond(fw_world *w, double x)
 {
     size_t kept = 0;
     for (size_t i = 0; i < w->n_blocks; i++) {
-        if (w->blocks[i].n_left == 0 || w->blocks[i].x_min + w->drift > x)
-            block_free(&w->blocks[i]);
-        else
-            w->blocks[kept++] = w->blocks[i];
+        fw_block b = w->blocks[i];
+        if (b.n_left == 0 || b.x_min + w->drift > x) continue;
+        w->blocks[i] = w->blocks[kept];
+        w->blocks[kept++] = b;
     }
     if (kept != w->n_blocks) w->block_changes++;
     w->n_blocks = kept;

@@ -43,6 +43,7 @@ typedef struct fw_block {
     uint64_t first_name;
     double   x_min, x_max, max_radius;
     fw_cells cells;
+    size_t   x_capacity, taken_capacity;
 } fw_block;
 
 typedef struct fw_world {
@@ -53,7 +54,7 @@ typedef struct fw_world {
     size_t      n_contacts, contact_capacity;
     fw_contact *contacts; /* closed ones, as the kernel last told them: where all floes stand at w->t */
     size_t      n_blocks, block_capacity;
-    fw_block   *blocks;
+    fw_block   *blocks; /* those beyond n_blocks hold memory for the next ones */
     uint64_t    block_changes; /* blocks added or dropped so far: block numbers kept from before a change are stale */
     /* Untouched ice is complete from X = ice_from on (ice frame), for y from ice_low to ice_high: who feeds the world says so. */
     double      ice_from, ice_low, ice_high;

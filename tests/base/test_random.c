@@ -53,6 +53,25 @@ static void counter_carries(void **state)
     }
 }
 
+/* Read eight blocks at a time a stream is the same stream, also where the counter carries and in a copy. */
+static void uniforms_are_those_of_the_stream(void **state)
+{
+    fw_random   r;
+    fw_uniforms u;
+    (void)state;
+    for (uint64_t start = 0; start <= 0xfffffffcu; start += 0xfffffffcu) {
+        fw_random_stream(&r, 1, FW_STREAM_TEST, 2, 3);
+        fw_uniforms_stream(&u, 1, FW_STREAM_TEST, 2, 3);
+        r.counter[0] = (uint32_t)start;
+        u.n_blocks = start;
+        for (int i = 0; i < 100; i++) {
+            fw_uniforms copy = u;
+            double      wanted = fw_random_uniform(&r);
+            assert_true(fw_uniforms_next(&u) == wanted && fw_uniforms_next(&copy) == wanted);
+        }
+    }
+}
+
 static void gsl_gives_the_same_words(void **state)
 {
     gsl_rng  *g = gsl_rng_alloc(fw_rng_philox());
@@ -159,6 +178,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(philox_known_answers),
         cmocka_unit_test(counter_carries),
+        cmocka_unit_test(uniforms_are_those_of_the_stream),
         cmocka_unit_test(gsl_gives_the_same_words),
         cmocka_unit_test(streams_are_independent),
         cmocka_unit_test(neighbouring_streams_differ_in_their_state),

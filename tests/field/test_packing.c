@@ -37,6 +37,18 @@ static size_t fill(double *r, size_t capacity, double largest, double smallest, 
     return n;
 }
 
+static void add_obstacle(fw_packing *p, double x, double y, double r)
+{
+    assert_int_equal(fw_packing_obstacles(p, 1, &x, &y, &r, NULL), FW_OK);
+}
+
+static double free_share(fw_packing *p)
+{
+    double share;
+    assert_int_equal(fw_packing_free_share(p, &share, NULL), FW_OK);
+    return share;
+}
+
 static void discs_never_overlap(void **state)
 {
     (void)state;
@@ -52,26 +64,26 @@ static void discs_never_overlap(void **state)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         fw_packing_box box = {-350.0, -250.0, 50.0, 150.0, cases[k].wraps};
         size_t         n = fill(r, 4000, cases[k].largest, cases[k].smallest, cases[k].share, 1e4);
-        fw_random      random;
-        fw_random_stream(&random, 11, FW_STREAM_TEST, k, 0);
+        fw_uniforms    random;
+        fw_uniforms_stream(&random, 11, FW_STREAM_TEST, k, 0);
         assert_int_equal(fw_packing_begin(&p, &box, n, cases[k].largest, 3.0, &m), FW_OK);
         /* Obstacles left and right: one at every 2 radii of the borders, some reaching far into the box. */
         for (double y = 50.0 + cases[k].largest; y < 150.0 - cases[k].largest; y += 2.5 * cases[k].largest) {
-            assert_int_equal(fw_packing_obstacle(&p, -350.0 - 1e-3, y, cases[k].largest, &m), FW_OK);
-            assert_int_equal(fw_packing_obstacle(&p, -250.0 + 0.7 * cases[k].largest, y, cases[k].largest, &m), FW_OK);
+            add_obstacle(&p, -350.0 - 1e-3, y, cases[k].largest);
+            add_obstacle(&p, -250.0 + 0.7 * cases[k].largest, y, cases[k].largest);
         }
-        assert_int_equal(fw_packing_obstacle(&p, 900.0, 100.0, cases[k].largest, &m), FW_OK); /* out of reach */
+        add_obstacle(&p, 900.0, 100.0, cases[k].largest); /* out of reach */
         /* In two calls: the second may move the floes of the first. */
-        assert_int_equal(fw_packing_place(&p, n / 3, r, &random, &n_left, &m), FW_OK);
+        assert_int_equal(fw_packing_place(&p, n / 3, r, 0, &random, &n_left, &m), FW_OK);
         assert_int_equal(n_left, 0);
         assert_no_overlap(&p);
-        assert_int_equal(fw_packing_place(&p, n - n / 3, r + n / 3, &random, &n_left, &m), FW_OK);
+        assert_int_equal(fw_packing_place(&p, n - n / 3, r + n / 3, 1000, &random, &n_left, &m), FW_OK);
         assert_int_equal(n_left, 0);
         assert_int_equal(p.n_own, n);
         assert_no_overlap(&p);
         double area = 0.0;
         for (size_t i = 0; i < n; i++) area += PI * r[i] * r[i];
-        assert_true(fabs(fw_packing_free_share(&p) - area / 1e4) < 1e-9);
+        assert_true(fabs(free_share(&p) - area / 1e4) < 1e-9);
     }
     fw_packing_free(&p);
 }
@@ -81,22 +93,22 @@ static void what_cannot_be_packed_says_so(void **state)
     (void)state;
     fw_packing     p = {0};
     fw_packing_box box = {0.0, 60.0, 0.0, 60.0, true};
-    fw_random      random;
+    fw_uniforms    random;
     fw_msg         m;
     double         r[200];
     size_t n_left, n = fill(r, 200, 3.0, 3.0, 0.95, 3600.0); /* above the densest packing of equal discs, 0.9069 */
-    fw_random_stream(&random, 11, FW_STREAM_TEST, 0, 0);
+    fw_uniforms_stream(&random, 11, FW_STREAM_TEST, 0, 0);
     assert_int_equal(fw_packing_begin(&p, &box, n, 3.0, 3.0, &m), FW_OK);
-    assert_int_equal(fw_packing_place(&p, n, r, &random, &n_left, &m), FW_OK);
+    assert_int_equal(fw_packing_place(&p, n, r, 0, &random, &n_left, &m), FW_OK);
     assert_true(n_left > 0);
-    assert_true(fw_packing_free_share(&p) < 0.9069);
+    assert_true(free_share(&p) < 0.9069);
 
     /* One disc and an obstacle that covers the whole box. */
     assert_int_equal(fw_packing_begin(&p, &box, 1, 50.0, 3.0, &m), FW_OK);
-    assert_int_equal(fw_packing_obstacle(&p, 30.0, 30.0, 50.0, &m), FW_OK);
-    assert_int_equal(fw_packing_place(&p, 1, r, &random, &n_left, &m), FW_OK);
+    add_obstacle(&p, 30.0, 30.0, 50.0);
+    assert_int_equal(fw_packing_place(&p, 1, r, 0, &random, &n_left, &m), FW_OK);
     assert_int_equal(n_left, 1);
-    assert_true(fw_packing_free_share(&p) == 0.0);
+    assert_true(free_share(&p) == 0.0);
     fw_packing_free(&p);
 }
 
@@ -105,14 +117,14 @@ static void nothing_to_place_is_fine(void **state)
     (void)state;
     fw_packing     p = {0};
     fw_packing_box box = {0.0, 100.0, -50.0, 50.0, true};
-    fw_random      random;
+    fw_uniforms    random;
     fw_msg         m;
     size_t         n_left = 7;
-    fw_random_stream(&random, 1, FW_STREAM_TEST, 0, 0);
+    fw_uniforms_stream(&random, 1, FW_STREAM_TEST, 0, 0);
     assert_int_equal(fw_packing_begin(&p, &box, 0, 5.0, 3.0, &m), FW_OK);
-    assert_int_equal(fw_packing_place(&p, 0, NULL, &random, &n_left, &m), FW_OK);
+    assert_int_equal(fw_packing_place(&p, 0, NULL, 0, &random, &n_left, &m), FW_OK);
     assert_int_equal(n_left, 0);
-    assert_true(fw_packing_free_share(&p) == 0.0);
+    assert_true(free_share(&p) == 0.0);
     fw_packing_free(&p);
     fw_packing_free(&p); /* zeroed: fine */
 }
@@ -124,15 +136,15 @@ static void overlapping_floes_are_pushed_apart(void **state)
     (void)state;
     fw_packing     p = {0};
     fw_packing_box box = {0.0, 40.0, 0.0, 40.0, false};
-    fw_random      random;
+    fw_uniforms    random;
     fw_msg         m;
     double         r[80];
     size_t         n_left;
     for (int i = 0; i < 80; i++) r[i] = 2.0;
-    fw_random_stream(&random, 2, FW_STREAM_TEST, 0, 0);
+    fw_uniforms_stream(&random, 2, FW_STREAM_TEST, 0, 0);
     assert_int_equal(fw_packing_begin(&p, &box, 80, 2.0, 2.0, &m), FW_OK);
-    for (int i = 0; i < 3; i++) assert_int_equal(fw_packing_own(&p, 20.0 + 4.1 * i, 20.0, 2.0, &m), FW_OK);
-    assert_int_equal(fw_packing_place(&p, 77, r, &random, &n_left, &m), FW_OK);
+    assert_int_equal(fw_packing_own(&p, 3, (double[]){20.0, 24.1, 28.2}, (double[]){20.0, 20.0, 20.0}, r, &m), FW_OK);
+    assert_int_equal(fw_packing_place(&p, 77, r, 0, &random, &n_left, &m), FW_OK);
     assert_int_equal(n_left, 0);
     assert_true(p.cost.n_crowded > 0 && p.cost.n_pushes > 0);
     assert_no_overlap(&p);

@@ -11,6 +11,8 @@ static void angle_convention(void **state)
     CHECK_NEAR(fw_ring_angle(0, 1), PI / 2, 1e-15);
     CHECK_NEAR(fw_ring_angle(1, 0), PI, 1e-15);
     CHECK_NEAR(fw_ring_angle(0, -1), 3 * PI / 2, 1e-15);
+    for (double turn = -3; turn < 3; turn += 0.0071)
+        CHECK_NEAR(fw_ring_turn(-cos(2), sin(2), -3 * cos(2 + turn), 3 * sin(2 + turn)), turn, 1e-14);
     assert_true(fw_ring_angle(-1, -1e-300) < 2 * PI);
 }
 
