@@ -123,15 +123,22 @@ double fw_path_root(double gap0, double rate0, double gap1, double rate1, double
     return hi * h;
 }
 
-/* From the cubic's root to the paths' own. */
-static double polish(const fw_path *a, const fw_path *b, double at, double low, double high, double tiny)
+/* From the cubic's root to the paths' own: Newton, kept between an instant before the touch and one at which they overlap (where there is one).
+ * Floes that part and come back slowly have a hump of gap between, from whose top Newton goes anywhere. */
+static double polish(const fw_path *a, const fw_path *b, double at, double low, double high, bool is_over, double tiny)
 {
-    for (int n = 0; n < 30; n++) {
+    for (int n = 0; n < 60; n++) {
         double g, r;
         fw_path_gap(a, b, at, &g, &r);
-        if (!(r > 0)) return INFINITY; /* grazing: the cubic's dip is not there */
-        if (fabs(g) <= tiny) break;
-        double next = fw_smaller(high, fw_larger(low, at + g / r));
+        if (!(r > 0) && !is_over) return INFINITY; /* grazing: the cubic's dip is not there */
+        if (fabs(g) <= tiny && r > 0) break;
+        if (g > 0 || !(r > 0))
+            low = at;
+        else
+            high = at, is_over = true;
+        double next = r > 0 ? at + g / r : high;
+        if (is_over && !(next > low && next < high)) next = 0.5 * (low + high);
+        next = fw_smaller(high, fw_larger(low, next));
         if (next == at) break;
         at = next;
     }
@@ -157,7 +164,7 @@ double fw_path_touch(const fw_path *a, const fw_path *b, double from, double unt
         if (!(gap <= 0 && rate <= 0 && (gap1 > 0 || rate1 <= 0))) { /* just opened: it parts */
             double root = fw_path_root(fw_larger(gap, DBL_MIN), rate, gap1, rate1, h);
             if (root <= h) {
-                double at = polish(a, b, t + root, t, t + h, tiny);
+                double at = polish(a, b, t + root, t, t + h, gap1 <= 0, tiny);
                 if (at <= until) return at;
             }
         }
