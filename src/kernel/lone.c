@@ -47,8 +47,7 @@ static const double BULGE = 0.016;    /* largest integral of the second Legendre
 static const double FIRST_STEP = 0.5; /* after a touch, in 1/w: nothing is known of the forcing yet */
 static const double RINGING = 0.2;    /* share of the force that has to decay yet, from which on it is watched */
 static const double WATCH = 0.5;      /* in 1/w: how often a force that may dip below zero is looked at */
-static const double LONGEST_RINGING =
-    8; /* step while it may, in 1/w; and of any underdamped contact: it rings for long */
+static const double LONGEST_DECAY = 8, LONGEST_RINGING = 2; /* steps meanwhile, in 1/w; the latter where the floe goes to and fro */
 /* Pieces in which a step's wear is collected. */
 static const double FIRST_PIECE = 0.35, PIECE_GROWTH = 0.6,
                     LONGEST_FRESH = 4; /* in 1/w; per time since the touch; 1/w */
@@ -458,7 +457,9 @@ static double attempt(fw_cluster *c, const fw_books *b, double h, double *event)
     if (!(at[2].reach > 0.5 * set->structure_radius && isfinite(at[2].rate + at[2].slip + at[2].turn))) return NAN;
     *event = first_edge(L, p, at);
     double err = error_of(L, p, set, at, &last, end);
-    return rings(L, p) && h * p->law.omega > 1.01 * LONGEST_RINGING ? fw_larger(err, 2) : err;
+    /* three looks at a period see no curvature */
+    double longest = L->half_damping < 0.5 * p->law.omega ? LONGEST_RINGING : LONGEST_DECAY;
+    return rings(L, p) && h * p->law.omega > 1.01 * longest ? fw_larger(err, 2) : err;
 }
 
 /* The tried step ends after `length`: what the rest of the kernel needs to know of it. */
@@ -513,7 +514,6 @@ fw_status fw_lone_try(fw_cluster *c, const fw_books *b, double limit, fw_msg *ms
     begin(c, b);
     if (!(c->h < INFINITY) || p->since_touch == 0) c->h = FIRST_STEP / omega;
     c->h = fw_smaller(c->h, set->max_step / set->velocity_scale);
-    if (L->half_damping < 0.5 * omega) c->h = fw_smaller(c->h, LONGEST_RINGING / omega);
     /* No sliver at the end: two halves instead. */
     double h = c->h >= left ? left : c->h > 0.5 * left ? 0.5 * left : c->h, wanted = c->h, tried = h;
     for (;;) {
@@ -551,7 +551,7 @@ fw_status fw_lone_land(fw_cluster *c, const fw_books *b, double t, fw_msg *msg)
  * counts as impact ends there. */
 static int cut_up(const fw_lone *L, const fw_pair *p, double wear_tolerance, double impact_left, double *cut)
 {
-    double h = L->length, omega = p->law.omega, finer = sqrt(sqrt(wear_tolerance / 2e-4)), fresh = 0,
+    double h = L->length, omega = fw_larger(p->law.omega, L->half_damping + sqrt(fw_larger(0, L->split))), finer = sqrt(sqrt(wear_tolerance / 2e-4)), fresh = 0,
            piece = FIRST_PIECE / omega * finer;
     if (L->slides != 0 || !L->rubs) piece *= SLIDING;
     if (L->presses) {

@@ -32,6 +32,33 @@ static void root_of_cubic(void **state)
     assert_true(isinf(fw_path_root(1, 0.1, 0.9, 0.1, 1))); /* never there */
 }
 
+/* A floe leaves the structure's rim at any pace and angle and the current drives it back: it touches again, and where the gap says. */
+static void driven_back(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 8; i++)
+        for (int j = 0; j < 30; j++) {
+            double   angle = 0.15 * i, off = 0.02 * (j + 1), slow = 0.3 + 0.2 * (i % 3), reach = 3.7 + 2.5;
+            fw_setup s = {.structure_radius = 3.7, .speed = slow, .velocity_scale = slow};
+            fw_body  b = {.x = -reach * cos(angle),
+                          .y = reach * sin(angle),
+                          .vx = -off * cos(angle) + 0.1 * slow * sin(angle),
+                          .vy = off * sin(angle) + 0.1 * slow * cos(angle),
+                          .radius = 2.5,
+                          .drag = 1.4,
+                          .inv_mass = 1};
+            fw_path  a = fw_path_of_flying(&s, &b), wall = fw_path_of_structure(&s);
+            double   gap, closing, after = 0.02;
+            for (fw_path_gap(&a, &wall, after, &gap, &closing); gap > 0 && after < 20; after += 0.001)
+                fw_path_gap(&a, &wall, after, &gap, &closing);
+            double at = touch(&a, &wall, 0, 20);
+            if (after < 20)
+                CHECK_NEAR(at, after, 0.0021);
+            else
+                assert_true(isinf(at));
+        }
+}
+
 /* Two floes head-on without drag: the gap closes linearly. */
 static void free_flight(void **state)
 {
@@ -40,7 +67,7 @@ static void free_flight(void **state)
     CHECK_NEAR(touch(&a, &b, 0, 100), 7 / 1.5, 1e-10);
     assert_true(isinf(touch(&a, &b, 0, 4)));
     CHECK_NEAR(touch(&a, &b, 2, 100), 7 / 1.5, 1e-10); /* from any instant on */
-    a = flying(0, 2.9999, 1, 0, 1, 0, 1e3);                    /* grazing: closest way 2.9999 of 3 */
+    a = flying(0, 2.9999, 1, 0, 1, 0, 1e3);            /* grazing: closest way 2.9999 of 3 */
     double t = touch(&a, &b, 0, 100), dx = 10 - 1.5 * t;
     CHECK_NEAR(sqrt(dx * dx + 2.9999 * 2.9999), 3, 1e-10);
     a = flying(0, 3.0001, 1, 0, 1, 0, 1e3);
@@ -103,8 +130,11 @@ static void member_of_a_cluster(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(root_of_cubic), cmocka_unit_test(free_flight),
-                                       cmocka_unit_test(slow_approach), cmocka_unit_test(undisturbed_drift_is_exact),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(root_of_cubic),
+                                       cmocka_unit_test(driven_back),
+                                       cmocka_unit_test(free_flight),
+                                       cmocka_unit_test(slow_approach),
+                                       cmocka_unit_test(undisturbed_drift_is_exact),
                                        cmocka_unit_test(member_of_a_cluster)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
