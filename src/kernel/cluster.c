@@ -1,4 +1,4 @@
-/* One cluster: its step control, and how it grows and shrinks.
+/* One cluster: its step control, and how it grows and shrinks. (One floe alone on the structure: lone.c.)
  *
  * Steps start short after a touch (the force jumps there by c d') and grow as the error allows; a floe that rolls along the
  * structure goes on in steps of half a second. A step ends where a floe lets go of the structure: slip is fast and pressure

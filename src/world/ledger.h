@@ -24,7 +24,7 @@ typedef struct fw_ledger {
     double max_overlap_share; /* over the smaller radius */
     double overlap_time;      /* [s] with any overlap beyond a tenth of the smaller radius */
     /* cost */
-    double force_evaluations; /* one per contact and stage */
+    double force_evaluations; /* one per contact and stage; of a lone floe per state that drag is asked at */
     double steps, rejected, macro_steps, rebuilds, touches, late_touches;
 } fw_ledger;
 
