@@ -246,6 +246,12 @@ static fw_status not_finite(const fw_cluster *c, const fw_books *books, fw_msg *
                    (unsigned long long)books->world->bodies[c->members[0].index].name, c->t0);
 }
 
+/* err^(-1 / order), without a power */
+static double step_factor(const fw_method *me, double err)
+{
+    return 1 / (me->error_order == 3 ? cbrt(err) : sqrt(sqrt(err)));
+}
+
 /* Shorter and shorter until the error is within the tolerance. */
 static fw_status attempt_until_good(fw_cluster *c, const fw_books *books, double *h, double *err, fw_msg *msg)
 {
@@ -253,7 +259,7 @@ static fw_status attempt_until_good(fw_cluster *c, const fw_books *books, double
     for (;;) {
         *err = attempt(c, books, *h);
         if (*err <= 1 || *h * c->omega <= SHORTEST) break;
-        double f = isfinite(*err) ? fw_larger(0.2, 0.9 * pow(*err, -1.0 / me->error_order)) : 0.1;
+        double f = isfinite(*err) ? fw_larger(0.2, 0.9 * step_factor(me, *err)) : 0.1;
         *h *= fw_smaller(f, 0.9);
         books->world->ledger.rejected++;
     }
@@ -279,7 +285,7 @@ fw_status fw_cluster_try(fw_cluster *c, const fw_books *books, double limit, fw_
         h = turn;
         FW_TRY(attempt_until_good(c, books, &h, &err, msg));
     }
-    double f = err > 0 ? 0.9 * pow(err, -1.0 / set->method->error_order) : set->growth;
+    double f = err > 0 ? 0.9 * step_factor(set->method, err) : set->growth;
     f = fw_smaller(set->growth, f);
     c->h = h < wanted ? fw_larger(wanted, h * f) : h * f;
     if (is_back) c->h = set->first_step / c->omega;

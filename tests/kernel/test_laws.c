@@ -192,6 +192,36 @@ static void touches_only(void **state)
     close_rig(&r);
 }
 
+/* When candidates are listed is bookkeeping: ice drifts onto the structure the same way whether they are listed every half metre of the
+ * current's way or every sixteen, and whatever the margin; and nobody is met too late. */
+static void listing_moves_nothing(void **state)
+{
+    (void)state;
+    double x[12], y[12], R[12], h[12];
+    for (int i = 0; i < 12; i++) x[i] = -8 - 5.5 * (i / 3), y[i] = -5.2 + 5.1 * (i % 3) + 0.3 * (i / 3), R[i] = 2.4 - 0.1 * (i % 5), h[i] = 0.6;
+    fw_body end[3][12];
+    for (int k = 0; k < 3; k++) {
+        fw_setup s = setup();
+        s.speed = 2, s.drag_per_area = 5125, s.has_drag = true;
+        s.horizon = (const double[]){0.5, 4, 16}[k], s.margin = (const double[]){0.02, 0.3, 1}[k];
+        rig r = open_rig(&s);
+        assert_int_equal(fw_world_add_block(r.w, 12, x, y, R, h, 0, NULL), FW_OK);
+        run(&r, 5);
+        assert_true(r.w->ledger.late_touches == 0 && r.w->ledger.touches > 6);
+        assert_true(r.w->n_bodies <= 12 && r.w->n_bodies >= 6);
+        memset(end[k], 0, sizeof end[k]);
+        for (size_t i = 0; i < r.w->n_bodies; i++)
+            if (r.w->bodies[i].is_touched) end[k][r.w->bodies[i].name] = r.w->bodies[i];
+        close_rig(&r);
+    }
+    for (int k = 1; k < 3; k++)
+        for (int i = 0; i < 12; i++) {
+            CHECK_NEAR(end[k][i].x, end[0][i].x, 1e-6);
+            CHECK_NEAR(end[k][i].y, end[0][i].y, 1e-6);
+            CHECK_NEAR(end[k][i].spin, end[0][i].spin, 1e-5);
+        }
+}
+
 static void limits_and_failures(void **state)
 {
     (void)state;
@@ -219,7 +249,7 @@ static void limits_and_failures(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(free_cluster), cmocka_unit_test(mirror_images),
-                                       cmocka_unit_test(symmetric_at_once), cmocka_unit_test(touches_only),
+                                       cmocka_unit_test(symmetric_at_once), cmocka_unit_test(touches_only), cmocka_unit_test(listing_moves_nothing),
                                        cmocka_unit_test(limits_and_failures)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -83,9 +83,54 @@ static void warm_up(void **state)
     assert_true(error < 0.15 * mean);
 }
 
+static fw_record record_of(fw_model m, double concentration, uint64_t id)
+{
+    fw_scenario s = {.seed = 42, .id = id, .concentration = concentration, .speed = 2};
+    fw_record   r;
+    fw_msg      msg = {""};
+    if (fw_realise(&m, &s, NULL, &r, &msg) != FW_OK || r.status != FW_OK) fail_msg("%s%s", msg.text, r.cause);
+    return r;
+}
+
+/* Where the disturbance stays inside, a strip of any width is the same window to the last bit, and no floe more is made. */
+static void width_is_not_paid_for(void **state)
+{
+    (void)state;
+    fw_model wide = model();
+    wide.strip_width = 1000;
+    size_t n_same = 0;
+    for (uint64_t id = 0; id < 6; id++) {
+        fw_record a = record_of(model(), 0.1, id), b = record_of(wide, 0.1, id);
+        if (a.floes_made == b.floes_made) {
+            n_same++;
+            assert_memory_equal(a.rings, b.rings, fw_record_n_rings(a.n_arcs, a.n_laws) * sizeof *a.rings);
+            assert_true(a.force_evaluations == b.force_evaluations);
+        }
+        fw_record_free(&a), fw_record_free(&b);
+    }
+    assert_true(n_same >= 4);
+}
+
+/* The window begins on the same ice however long the warm-up, so runs that differ in it (or in accuracy) can be compared. */
+static void window_keeps_its_ice(void **state)
+{
+    (void)state;
+    fw_model usual = model(), longer = model();
+    longer.warm_up = 240;
+    double sum = 0, sum2 = 0;
+    for (uint64_t id = 0; id < 4; id++) {
+        fw_record a = record_of(usual, 0.1, id), b = record_of(longer, 0.1, id);
+        assert_true(fabs(a.hits - b.hits) <= 2);
+        sum += a.normal_impulse, sum2 += b.normal_impulse;
+        fw_record_free(&a), fw_record_free(&b);
+    }
+    CHECK_RELATIVE(sum2, sum, 0.02);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(strip_width), cmocka_unit_test(downstream_reach),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(width_is_not_paid_for), cmocka_unit_test(window_keeps_its_ice),
+                                       cmocka_unit_test(strip_width), cmocka_unit_test(downstream_reach),
                                        cmocka_unit_test(ring_of_arcs), cmocka_unit_test(warm_up)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -68,7 +68,7 @@ static void three_hours(void **state)
     print_message("3 h at 40 %%: %.3g mm, %.0f hits, %.2f CPU s\n", depth_75(&r), r.hits, r.host_cpu_s);
     assert_true(depth_75(&r) > 2.5e-4 && depth_75(&r) < 3.3e-4);
     assert_true(r.energy_relative < 1e-10 && r.momentum_relative < 1e-10 && r.wear_conservation < 1e-10);
-    assert_true(r.energy_truncation < 0.01);
+    assert_true(r.energy_truncation < 0.01 && r.late_touches == 0);
     CHECK_NEAR(r.concentration_achieved, 0.4, 0.005);
     fw_record_free(&r);
 }
