@@ -1,0 +1,123 @@
+/* What a committed step of a lone floe leaves behind: energy, momentum, counts, and wear on the ring. The step is cut into pieces in which
+ * polynomials follow its closed forms; energy is entered by their own quadrature, drag taken afresh, so that the balance checks the motion. */
+#include <float.h>
+#include <math.h>
+
+#include "geometry/ring.h"
+#include "kernel/lone_forms.h"
+
+enum { PIECE = 5, MAX_CUTS = 40 };
+
+/* Pieces are short at first and grow with the time since the touch. In 1/w: */
+static const double FIRST_PIECE = 0.35, LONGEST_FRESH = 4;
+static const double PIECE_GROWTH = 0.6; /* numbers, too: */
+static const double SLIDING = 2;        /* longer by this where no slip decays */
+static const double FRESH =
+    0.1; /* decaying part of depth or slip over the rest: below, one piece follows it to the end */
+
+/* Instants between which the step is smooth enough for polynomials through five points. One of them is the end of the hit, so that what
+ * counts as impact ends there. */
+static int cut_up(const fw_lone *L, const fw_pair *p, double wear_tolerance, double impact_left, double *cut)
+{
+    double h = L->length, omega = fw_larger(p->law.omega, L->half_damping + sqrt(fw_larger(0, L->split))),
+           finer = sqrt(sqrt(wear_tolerance / 2e-4)), fresh = 0, piece = FIRST_PIECE / omega * finer;
+    if (L->slides != 0 || !L->rubs) piece *= SLIDING;
+    if (L->presses) {
+        fresh = fw_smaller(h, LONGEST_FRESH / omega);
+        if (!L->is_short) { /* how much of the state is still decaying */
+            double d = fabs(L->from.depth - L->swing[0]) + fabs(L->from.rate - L->swing[1] / L->span) / omega, s = 0;
+            if (L->rubs && L->slides == 0 && !L->is_short_slip)
+                s = fabs(L->from.slip - L->creep[0]) / (fabs(L->creep[0]) + DBL_MIN);
+            double alive = fw_larger(d / (fabs(L->swing[0]) + DBL_MIN), s) / (FRESH * finer * finer);
+            fresh = alive > 1 ? fw_smaller(fresh, log(alive) / omega + piece) : 0;
+        }
+    }
+    int n = 0;
+    cut[0] = 0;
+    while (cut[n] < h) {
+        double end = cut[n] < impact_left && impact_left < h ? impact_left : h;
+        double t = cut[n] + piece + PIECE_GROWTH * (cut[n] + fw_smaller(p->since_touch, 3 / omega));
+        bool   is_last = !(cut[n] < fresh) || t + 0.4 * piece > end || n + 3 >= MAX_CUTS;
+        cut[n + 1] = is_last ? end : t;
+        n++;
+    }
+    return n;
+}
+
+void fw_lone_keep(fw_cluster *c, const fw_books *b)
+{
+    static const double WEIGHT[PIECE] = {7.0 / 90, 32.0 / 90, 12.0 / 90, 32.0 / 90, 7.0 / 90}; /* Boole's rule */
+    const fw_setup     *set = b->setup;
+    const fw_lone      *L = &c->lone;
+    fw_member          *m = &c->members[0];
+    fw_pair            *p = &c->pairs[0];
+    fw_body            *body = &b->world->bodies[m->index];
+    fw_ledger          *l = &b->world->ledger;
+    double              h = L->length, mass = 1 / m->own_inv_mass, omega = p->law.omega, cut[MAX_CUTS];
+    double              drag_work = 0, dashpot = 0, friction = 0, jx = 0, jy = 0, load = 0;
+    double              impact_left = body->t_hit + 2 / omega - c->t0;
+    int                 n = cut_up(L, p, set->wear_tolerance, impact_left, cut);
+    bool                wears = L->presses && b->wear->is_open;
+    double              angle = wears ? fw_ring_angle(m->y0[FW_X], m->y0[FW_Y]) : 0;
+    fw_wear_interval    iv = {.radius = m->radius, .thickness = body->thickness, .n_stages = PIECE};
+    fw_lone_state       y[PIECE];
+    y[PIECE - 1] = L->from;
+    for (int j = 0; j < PIECE; j++) iv.at[j] = 0.25 * j;
+    for (int k = 0; k < n; k++) {
+        double from = cut[k], dt = cut[k + 1] - from;
+        decay  w = decay_at(L, from), step = decay_at(L, 0.25 * dt);
+        y[0] = y[PIECE - 1];
+        for (int j = 1; j < PIECE; j++) w = later(L, w, step), state_at(L, &p->law, from + iv.at[j] * dt, w, &y[j]);
+        for (int j = 0; j < PIECE; j++) {
+            double weight = WEIGHT[j] * dt;
+            if (m->drag_per_mass > 0) {
+                double nx, ny, out, along;
+                normal_at(L, y[j].turn, &nx, &ny);
+                drag_at(set->speed, m->drag_per_mass, nx, ny, &y[j], &out, &along);
+                drag_work += weight * (along * y[j].along - out * y[j].rate);
+                jx += weight * (out * nx - along * ny), jy += weight * (out * ny + along * nx);
+            }
+            if (!L->presses) continue;
+            double normal = fw_larger(0, y[j].normal);
+            double rub = !L->rubs ? 0 : L->slides != 0 ? -L->slides * p->mu * normal : -p->law.ct * y[j].slip;
+            dashpot += weight * p->law.c * y[j].rate * y[j].rate, friction -= weight * rub * y[j].slip;
+            l->peak_force = fw_larger(l->peak_force, normal);
+            if (y[j].depth > 0) load += weight * normal * fabs(y[j].slip) / sqrt(y[j].depth);
+            iv.normal[j] = y[j].normal, iv.slip[j] = y[j].slip, iv.overlap[j] = y[j].depth;
+        }
+        if (!wears) continue;
+        iv.length = dt, iv.since_touch = p->since_touch + from;
+        iv.impact_left = impact_left - from;
+        iv.depth[0] = iv.since_touch > 0 ? y[0].depth : 0, iv.depth[1] = y[PIECE - 1].depth;
+        iv.has_overlap = true, iv.overlap[0] = iv.depth[0];
+        iv.rate[0] = y[0].rate, iv.rate[1] = y[PIECE - 1].rate;
+        iv.angle[0] = angle - y[0].turn, iv.angle[1] = angle - y[PIECE - 1].turn;
+        fw_wear_collect(b->wear, &iv);
+    }
+    const fw_lone_state *e = &y[PIECE - 1];
+    p->load_tried = load;
+    l->drag_work += mass * drag_work, l->dashpot += dashpot, l->friction += friction;
+    if (L->presses) {
+        l->normal_impulse += mass * (L->span * integral(L->by.push, h / L->span) - (e->rate - L->from.rate));
+        l->contact_time += h;
+    } else {
+        double d0 = fw_larger(0, L->from.depth), d1 = fw_larger(0, e->depth);
+        l->dropped += 0.5 * p->law.k * (d0 * d0 - d1 * d1);
+    }
+    double small = fw_smaller(m->radius, set->structure_radius);
+    l->max_overlap = fw_larger(l->max_overlap, e->depth);
+    l->max_overlap_share = fw_larger(l->max_overlap_share, e->depth / small);
+    if (e->depth > 0.1 * small) l->overlap_time += h;
+    /* The contact's impulse along a turning normal has no closed form: it is what drag leaves of the change of momentum. So the two books of
+     * impulses agree by construction here; the balance of work (dashpot, friction, drag, each by its own quadrature) is what checks. */
+    double in[3] = {mass, mass, m->inv_inertia > 0 ? 1 / m->inv_inertia : 0}, work = 0;
+    for (int q = 0; q < 3; q++) {
+        double v0 = m->y0[FW_VX + q], v1 = m->y1[FW_VX + q];
+        work += 0.5 * in[q] * (v1 - v0) * (v1 + v0);
+    }
+    double size = fw_length(jx, jy) + fw_length(m->y1[FW_VX] - m->y0[FW_VX] - jx, m->y1[FW_VY] - m->y0[FW_VY] - jy);
+    l->kinetic_change += work, l->impulse_work += work;
+    l->impulse_size += mass * size * 0.5 *
+                       (fw_length(m->y0[FW_VX], m->y0[FW_VY]) + fw_length(m->y1[FW_VX], m->y1[FW_VY]));
+    l->momentum_size += mass * size;
+}
