@@ -73,7 +73,7 @@ static void say_in_words(const fw_accuracy_run *r, fw_accuracy_row *row)
     else if (row->group == FW_ACCURACY_RING)
         fw_accuracy_say_ring(r, row, r->n, r->out->mean_window_s);
     else if (row->group == FW_ACCURACY_WARM_UP)
-        snprintf(row->words, sizeof row->words, "other ice in the window; once in the campaign's window: %.1g %%",
+        snprintf(row->words, sizeof row->words, "once at a window's start: %.1g %% of the campaign's window",
                  100 * fabs(row->depth.mean) * r->out->mean_window_s / r->c->model.window);
     else if (row->depth.n > 1 && fabs(row->depth.mean) < 2 * row->depth.error)
         snprintf(row->words, sizeof row->words, "mean error within its scatter");

@@ -64,7 +64,7 @@ static void ring_of_arcs(void **state)
     CHECK_RELATIVE(c, b, 1e-3);
 }
 
-/* The rate after the default warm-up against the rate after four times of it: other ice, so within the scatter of fields. */
+/* The rate after the default warm-up against the rate after four times of it: the same ice, met by another pile. */
 static void warm_up(void **state)
 {
     (void)state;
