@@ -14,13 +14,17 @@ static fw_status wake_before_structure(fw_kernel *k, fw_msg *m)
         fw_block *b = &w->blocks[q];
         double    reach = t->setup.structure_radius + b->max_radius + 0.5 * u * dt, cx = X - 0.5 * u * dt;
         if (b->n_left == 0 || cx + reach < b->x_min || cx - reach > b->x_max) continue;
-        for (size_t r = 0; r < b->n; r++) {
-            double dx = b->x[r] - X, limit = t->setup.structure_radius + b->radius[r];
-            if (b->is_taken[r] || fabs(b->y[r]) > limit || dx > limit || dx < -limit - u * dt ||
-                fabs(b->y[r]) > t->setup.half_width)
-                continue;
-            FW_TRY(fw_wake(&t->setup, w, q, r, m));
-        }
+        size_t ix0, ix1, iy0, iy1;
+        fw_cells_range(&b->cells, cx, 0, reach, &ix0, &ix1, &iy0, &iy1);
+        for (size_t iy = iy0; iy < iy1 && ix0 < ix1; iy++)
+            for (size_t i = b->cells.start[iy * b->cells.nx + ix0]; i < b->cells.start[iy * b->cells.nx + ix1]; i++) {
+                size_t r = b->cells.item[i];
+                double dx = b->x[r] - X, limit = t->setup.structure_radius + b->radius[r];
+                if (b->is_taken[r] || fabs(b->y[r]) > limit || dx > limit || dx < -limit - u * dt ||
+                    fabs(b->y[r]) > t->setup.half_width)
+                    continue;
+                FW_TRY(fw_wake(&t->setup, w, q, r, m));
+            }
     }
     return FW_OK;
 }

@@ -82,7 +82,7 @@ void fw_accuracy_setup(fw_setup *s, const fw_model *m, double speed, double velo
         .first_step = blend(TABLE[r].first_step, TABLE[r + 1].first_step, f),
         .growth = blend(TABLE[r].growth, TABLE[r + 1].growth, f),
         .max_step = 2.0,
-        .solver_share = 0.5,
+        .solver_share = 1,
         .landing = 10 * blend(TABLE[r].tolerance, TABLE[r + 1].tolerance, f),
         .horizon = 4.0,
         .margin = 0.3,
