@@ -13,9 +13,10 @@ from style import AMBER, BLUE, GREEN, INK, PURPLE, SKY, VERMILION
 FILETYPE = "floewear accuracy"
 
 # The lines of the diagram, from the kernel's own to the plainest: (pattern of the method in the file, what the reader calls it,
-# colour, mark, line). A study has its wear rules at one order, the built-in one.
+# colour, mark, line). A study has its wear rules at one order, 3.
 METHODS = (
-    (r"events 2, hermite", "events, order 2", VERMILION, "o", "-"),
+    (r"events, hermite", "events, as built in", VERMILION, "o", "-"),
+    (r"events 2, hermite", "events, order 2", "#B5651D", "<", "-"),
     (r"events 3, hermite", "events, order 3", AMBER, "s", "-"),
     (r"events 4, hermite", "events, order 4", PURPLE, "D", "-"),
     (r"events (\d), singular", r"events, order \1, singular wear", "#8C6D31", "d", "-."),
@@ -103,7 +104,7 @@ def draw_work_precision(study):
 
 
 def chosen_text(steps, row):
-    method = steps["method"][row].replace("events ", "order ").replace(", hermite", "")
+    method = steps["method"][row].replace("events, hermite", "as built in").replace("events ", "order ").replace(", hermite", "")
     return f"{method}\n{steps['setting'][row]}"
 
 

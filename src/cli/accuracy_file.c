@@ -26,7 +26,7 @@ void fw_choice_sets_make(fw_choice_sets *out, const fw_accuracy_choice *choice)
 {
     const fw_numerics *n = &choice->numerics;
     *out = (fw_choice_sets){.n = 0};
-    add_set(out, "numerics.order=%d", n->order);
+    if (n->order) add_set(out, "numerics.order=%d", n->order);
     add_set(out, "numerics.tolerance=%.6g", n->tolerance);
     add_set(out, "numerics.wear_tolerance=%.6g", n->wear_tolerance);
     add_set(out, "numerics.first_step=%.6g", n->first_step);

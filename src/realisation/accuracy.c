@@ -146,7 +146,7 @@ fw_numerics fw_accuracy_built_in(const fw_model *m)
     bare.numerics = (fw_numerics){.scheme = FW_SCHEME_EVENTS};
     fw_accuracy_setup(&s, &bare, 1, 1);
     return (fw_numerics){
-        .order = s.method->order, .tolerance = s.tolerance, .wear_tolerance = s.wear_tolerance, .first_step = s.first_step, .growth = s.growth};
+        .tolerance = s.tolerance, .wear_tolerance = s.wear_tolerance, .first_step = s.first_step, .growth = s.growth};
 }
 
 void fw_accuracy_set_tolerance(fw_numerics *n, double tolerance)

@@ -21,7 +21,8 @@ typedef struct fw_accuracy_line {
 } fw_accuracy_line;
 size_t fw_accuracy_lines(const fw_model *m, double speed, fw_accuracy_line *lines, size_t capacity);
 
-/* What the table says for the model's accuracy, whatever the model's own numerics are: order, tolerance, first step, growth. */
+/* What the table says for the model's accuracy, whatever the model's own numerics are: tolerances, first step, growth. Its order is
+ * 0: the table's method, with closed forms for floes that touch nothing but the wall. */
 fw_numerics fw_accuracy_built_in(const fw_model *m);
 /* Another tolerance, with all that has to go with it: the ladder of a study moves along one line. */
 void fw_accuracy_set_tolerance(fw_numerics *n, double tolerance);

@@ -46,7 +46,7 @@ const char *fw_accuracy_group_name(fw_accuracy_group g); /* "step", "ring", ... 
  * points relative to their mean. Of the window group depth_rms is the scatter of one window and nothing is compared. */
 typedef struct fw_accuracy_row {
     fw_accuracy_group group;
-    char              method[40];  /* the line of the diagram it belongs to: "events 2, hermite" (its order) */
+    char              method[40];  /* the line of the diagram it belongs to: "events, hermite", "events 2, hermite" (its order) */
     char              setting[40]; /* "tolerance 1e-4", "1 ms", "360 arcs" */
     fw_numerics       numerics;
     double            level;                /* tolerance [-], step [s], arcs, width [m], way [m] */
