@@ -14,15 +14,18 @@
 #include "campaign/signals.h"
 #include "floewear/campaign.h"
 
+enum { MASTER_RECEIVES = 32 }; /* records that may be on their way to rank 0 at once */
+
 typedef struct master {
     const fw_run      *run;
     const fw_campaign *campaign;
     int                n_ranks, n_away; /* n_away: workers that have left */
     bool              *is_ready;        /* (n_ranks) the worker may be given leases */
     fw_leases          leases;
-    fw_record          record; /* the one that has just arrived */
-    unsigned char     *bytes;  /* (n_bytes) its packed form */
+    fw_record          record;   /* the one that has just arrived */
+    unsigned char     *bytes;    /* (MASTER_RECEIVES, n_bytes) packed records on their way */
     size_t             n_bytes;
+    MPI_Request        receives[MASTER_RECEIVES];
 
     bool      is_over, is_enough, is_sink_broken, is_unflushed;
     bool      is_prefix_fixed; /* a decision named the prefix that the answer is made from */
@@ -175,7 +178,9 @@ static void master_keep(master *a, int rank, const fw_record *r)
     }
 }
 
-static void master_take_record(master *a, const MPI_Status *status)
+/* Nobody waits in a receive: a record larger than MPI's eager limit moves only while its sender calls MPI as well, and that one
+ * may be deep in a realisation. */
+static void master_take_record(master *a, int slot, const MPI_Status *status)
 {
     int       rank = status->MPI_SOURCE;
     int       n    = 0;
@@ -183,8 +188,7 @@ static void master_take_record(master *a, const MPI_Status *status)
     fw_status s;
 
     MPI_Get_count(status, MPI_BYTE, &n);
-    MPI_Recv(a->bytes, (int)a->n_bytes, MPI_BYTE, rank, FW_TAG_RECORD, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-    s = fw_record_unpack(&a->record, a->bytes, (size_t)n, &m);
+    s = fw_record_unpack(&a->record, a->bytes + (size_t)slot * a->n_bytes, (size_t)n, &m);
     if (s != FW_OK) {
         if (!a->is_over) fw_fail(&a->why, FW_E_INTERNAL, "rank %d sent a record that cannot be read: %s", rank, m.text);
         master_end(a, FW_E_INTERNAL);
@@ -211,6 +215,13 @@ static void master_take_word(master *a, int rank, int tag)
     master_end(a, (fw_status)word.status);
 }
 
+static bool master_is_receiving(const master *a)
+{
+    for (int i = 0; i < MASTER_RECEIVES; i++)
+        if (a->receives[i] != MPI_REQUEST_NULL) return true;
+    return false;
+}
+
 /* Answer everything that has arrived; never waits. */
 static bool master_listen(master *a)
 {
@@ -221,13 +232,26 @@ static bool master_listen(master *a)
     start = fw_cpu_seconds();
     for (;;) {
         MPI_Status status;
-        int        is_waiting = 0;
+        int        is_waiting = 0, slot = 0;
 
+        MPI_Testany(MASTER_RECEIVES, a->receives, &slot, &is_waiting, &status);
+        if (is_waiting && slot != MPI_UNDEFINED) {
+            heard = true;
+            master_take_record(a, slot, &status);
+            continue;
+        }
+        slot = 0;
+        while (slot < MASTER_RECEIVES && a->receives[slot] != MPI_REQUEST_NULL) slot++;
+        if (slot == MASTER_RECEIVES) break;
         MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &is_waiting, &status);
         if (!is_waiting) break;
+        if (status.MPI_TAG == FW_TAG_RECORD) {
+            MPI_Irecv(a->bytes + (size_t)slot * a->n_bytes, (int)a->n_bytes, MPI_BYTE, status.MPI_SOURCE, FW_TAG_RECORD,
+                      MPI_COMM_WORLD, &a->receives[slot]);
+            continue;
+        }
         heard = true;
         switch (status.MPI_TAG) {
-        case FW_TAG_RECORD: master_take_record(a, &status); break;
         case FW_TAG_LEFT:
             MPI_Recv(NULL, 0, MPI_BYTE, status.MPI_SOURCE, FW_TAG_LEFT, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
             a->n_away++;
@@ -338,7 +362,7 @@ static void master_close(master *a)
 
     for (int r = 1; r < a->n_ranks; r++) MPI_Send(NULL, 0, MPI_BYTE, r, FW_TAG_STOP, MPI_COMM_WORLD);
     master_flush(a); /* first of all: mpirun follows its SIGTERM with a SIGKILL one second later */
-    while (a->n_away < a->n_ranks - 1) {
+    while (a->n_away < a->n_ranks - 1 || master_is_receiving(a)) {
         if (!master_listen(a)) fw_nap_take(&nap);
     }
     master_flush(a);
@@ -352,11 +376,12 @@ static fw_status master_open(master *a, const fw_run *run, fw_msg *m)
     a->run      = run;
     a->campaign = c;
     a->n_ranks  = fw_protocol_ranks();
+    for (int i = 0; i < MASTER_RECEIVES; i++) a->receives[i] = MPI_REQUEST_NULL;
     a->n_bytes  = fw_record_packed_size(c->model.n_arcs, c->model.n_laws);
     FW_TRY(fw_leases_create(&a->leases, a->n_ranks, c->precision.max_realisations, c->precision.max_failed,
                             run->stop.look != NULL, run->n_have, run->have, run->n_have_failed, run->have_failed, m));
     FW_TRY(fw_alloc(&a->is_ready, (size_t)a->n_ranks, sizeof *a->is_ready, "states of ranks", m));
-    FW_TRY(fw_alloc(&a->bytes, a->n_bytes, 1, "a packed record", m));
+    FW_TRY(fw_alloc(&a->bytes, a->n_bytes, MASTER_RECEIVES, "packed records", m));
     return fw_record_init(&a->record, c->model.n_arcs, c->model.n_laws, m);
 }
 

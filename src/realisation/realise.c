@@ -64,8 +64,8 @@ static fw_status go(run *r, double t_end, double t_all, const fw_tick *tick, fw_
             FW_TRY(fw_plain_step(r->plain, w, &r->wear, t_end, m));
         else
             FW_TRY(fw_kernel_step(r->kernel, w, &r->wear, t_end, m));
-        /* Some milliseconds of work: a macro-step takes from a microsecond to as many milliseconds in a jam. */
-        if (tick && (quiet % 64 == 0 || w->ledger.force_evaluations - told > 2e4)) {
+        /* Less than a millisecond of work, so that messages of other ranks get on. */
+        if (tick && (quiet % 64 == 0 || w->ledger.force_evaluations - told > 5e3)) {
             told = w->ledger.force_evaluations;
             *stopped = tick->call(tick->self, w->t / t_all);
             if (*stopped != FW_OK) return *stopped;
