@@ -48,24 +48,6 @@ void fw_protocol_begin(uint64_t hash, bool is_work)
     for (int r = 1; r < n; r++) MPI_Send(&begin, (int)sizeof begin, MPI_BYTE, r, FW_TAG_BEGIN, MPI_COMM_WORLD);
 }
 
-static double protocol_clock(clockid_t clock)
-{
-    struct timespec t;
-
-    clock_gettime(clock, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-double fw_seconds(void)
-{
-    return protocol_clock(CLOCK_MONOTONIC);
-}
-
-double fw_cpu_seconds(void)
-{
-    return protocol_clock(CLOCK_PROCESS_CPUTIME_ID);
-}
-
 void fw_nap_take(fw_nap *n)
 {
     struct timespec t = {0};

@@ -51,9 +51,6 @@ int  fw_protocol_rank(void);   /* 0 without MPI */
 int  fw_protocol_ranks(void);  /* 1 without MPI */
 void fw_protocol_begin(uint64_t hash, bool is_work); /* rank 0: BEGIN to every worker */
 
-double fw_seconds(void);     /* monotonic clock [s] */
-double fw_cpu_seconds(void); /* processor time of this process [s] */
-
 /* Waits that get longer while nothing happens: 0.1 ms up to 1 ms. A signal cuts one short. */
 typedef struct fw_nap {
     long nanoseconds; /* start with 0; set to 0 when something happened */

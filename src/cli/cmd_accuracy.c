@@ -1,40 +1,36 @@
 /* floewear accuracy: error against cost on a campaign's own scenes, measured; the cheapest setting goes to NAME.accuracy.h5, where
  * `run` and `plan` find it. One process: its CPU seconds are part of the result, and ranks that share a machine would blur them. */
 #include <argp.h>
-#include <errno.h>
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
-#include "base/memory.h"
+#include "base/clock.h"
 #include "campaign/signals.h"
 #include "cli/accuracy_file.h"
 #include "cli/accuracy_print.h"
+#include "cli/campaign_arguments.h"
 #include "cli/choice.h"
 #include "cli/commands.h"
 #include "cli/config.h"
 #include "cli/output.h"
 
 typedef struct accuracy_arguments {
-    const char  *campaign, *out;
-    const char **sets; /* (n_sets) */
-    size_t       n_sets, sets_capacity;
-    int64_t      seed;
-    double       budget_s, cpu_budget_s;
-    bool         is_quick, is_quiet, is_json;
+    fw_campaign_arguments of; /* the campaign */
+    const char           *out;
+    double                cpu_budget_s;
+    bool                  is_quick, is_quiet, is_json;
 } accuracy_arguments;
 
-enum { KEY_SET = 256, KEY_SEED, KEY_BUDGET, KEY_CPU_BUDGET, KEY_QUICK, KEY_JSON };
+enum { KEY_CPU_BUDGET = 256, KEY_QUICK, KEY_JSON };
 
 static const struct argp_option OPTIONS[] = {
     {"output", 'o', "OUT", 0, "write OUT.accuracy.h5 (default: the campaign's name, in the current folder)", 0},
     {"quick", KEY_QUICK, NULL, 0, "a small study, within two minutes on a busy machine", 0},
-    {"set", KEY_SET, "KEY=VALUE", 0, "change one key of the file, as in ice.concentration=60%; may be repeated", 0},
-    {"seed", KEY_SEED, "N", 0, "instead of the file's seed", 0},
-    {"time-budget", KEY_BUDGET, "TIME", 0,
+    FW_OPTION_SET,
+    FW_OPTION_SEED,
+    {"time-budget", FW_KEY_BUDGET, "TIME", 0,
      "stop after this much wall-clock time, as in 20min; sizes are chosen to fit it", 0},
     {"cpu-budget", KEY_CPU_BUDGET, "TIME", 0, "choose sizes for this much CPU time (default 15min; with --quick 45s)",
      0},
@@ -56,47 +52,13 @@ static const double QUICK_S = 45, USUAL_S = 900, SHARE_OF_BUDGET = 0.5;
 static error_t parse(int key, char *text, struct argp_state *state)
 {
     accuracy_arguments *a = state->input;
-    fw_msg              m = {.text = ""};
-    char               *end;
     switch (key) {
     case 'o': a->out = text; return 0;
     case 'q': a->is_quiet = true; return 0;
     case KEY_QUICK: a->is_quick = true; return 0;
     case KEY_JSON: a->is_json = true; return 0;
-    case KEY_SET:
-        if (!strchr(text, '=')) {
-            argp_error(state, "--set %s: KEY=VALUE is wanted", text);
-            return EINVAL;
-        }
-        if (fw_grow(&a->sets, &a->sets_capacity, a->n_sets + 1, sizeof *a->sets, "--set", &m) != FW_OK) return ENOMEM;
-        a->sets[a->n_sets++] = text;
-        return 0;
-    case KEY_SEED:
-        errno = 0;
-        a->seed = strtoll(text, &end, 10);
-        if (errno == 0 && end != text && *end == '\0' && a->seed >= 0) return 0;
-        argp_error(state, "--seed %s: a whole number from 0 to %" PRId64 " is wanted", text, INT64_MAX);
-        return EINVAL;
-    case KEY_BUDGET:
-        if (fw_config_duration(text, &a->budget_s, &m) == FW_OK && a->budget_s > 0) return 0;
-        argp_error(state, "--time-budget %s: %s", text, m.text[0] ? m.text : "more than 0 s is wanted");
-        return EINVAL;
-    case KEY_CPU_BUDGET:
-        if (fw_config_duration(text, &a->cpu_budget_s, &m) == FW_OK && a->cpu_budget_s > 0) return 0;
-        argp_error(state, "--cpu-budget %s: %s", text, m.text[0] ? m.text : "more than 0 s is wanted");
-        return EINVAL;
-    case ARGP_KEY_ARG:
-        if (state->arg_num > 0) {
-            argp_error(state, "one campaign file is wanted, not also %s", text);
-            return EINVAL;
-        }
-        a->campaign = text;
-        return 0;
-    case ARGP_KEY_END:
-        if (a->campaign) return 0;
-        argp_error(state, "which campaign file?");
-        return EINVAL;
-    default: return ARGP_ERR_UNKNOWN;
+    case KEY_CPU_BUDGET: return fw_argument_duration("--cpu-budget", text, state, &a->cpu_budget_s);
+    default: return fw_campaign_arguments_parse(key, text, state, &a->of);
     }
 }
 
@@ -107,26 +69,19 @@ typedef struct watch {
     bool   is_quiet, is_terminal, is_line_open;
 } watch;
 
-static double seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static fw_status look(void *self, double done)
 {
     const watch *w = self;
     (void)done;
     if (fw_signals_received()) return FW_E_STOPPED;
-    return w->budget_s > 0 && seconds() - w->start > w->budget_s ? FW_E_STOPPED : FW_OK;
+    return w->budget_s > 0 && fw_seconds() - w->start > w->budget_s ? FW_E_STOPPED : FW_OK;
 }
 
 /* On a terminal one line that is rewritten; in a log one a minute. */
 static void say(void *self, const char *what)
 {
     watch *w = self;
-    double now = seconds();
+    double now = fw_seconds();
     if (w->is_quiet || (!w->is_terminal && now - w->said < 60)) return;
     w->said = now;
     w->is_line_open = w->is_terminal;
@@ -159,7 +114,7 @@ static fw_status check_place(const char *path, fw_msg *m)
 static fw_status measure(const accuracy_arguments *a, const fw_campaign *c, const char *path, fw_msg *m)
 {
     watch w = {
-        .start = seconds(), .budget_s = a->budget_s, .is_quiet = a->is_quiet, .is_terminal = isatty(STDERR_FILENO)};
+        .start = fw_seconds(), .budget_s = a->of.budget_s, .is_quiet = a->is_quiet, .is_terminal = isatty(STDERR_FILENO)};
     fw_tick             tick = {.call = look, .self = &w};
     fw_accuracy_options o = {.scenario = fw_campaign_scenario,
                              .cpu_budget_s = a->is_quick ? QUICK_S : USUAL_S,
@@ -168,15 +123,15 @@ static fw_status measure(const accuracy_arguments *a, const fw_campaign *c, cons
                              .say_self = &w};
     fw_accuracy         result;
     w.said = w.start;
-    if (a->budget_s > 0 && SHARE_OF_BUDGET * a->budget_s < o.cpu_budget_s)
-        o.cpu_budget_s = SHARE_OF_BUDGET * a->budget_s;
+    if (a->of.budget_s > 0 && SHARE_OF_BUDGET * a->of.budget_s < o.cpu_budget_s)
+        o.cpu_budget_s = SHARE_OF_BUDGET * a->of.budget_s;
     if (a->cpu_budget_s > 0) o.cpu_budget_s = a->cpu_budget_s;
     fw_status s = fw_accuracy_study(&result, c, &o, m);
     if (w.is_line_open) fprintf(stderr, "\r\033[K");
     if (s == FW_E_STOPPED) {
         return fw_signals_received()
                    ? fw_fail(m, s, "stopped by signal %d; nothing is written", fw_signals_received())
-                   : fw_fail(m, s, "the time budget of %g s is used up; nothing is written", a->budget_s);
+                   : fw_fail(m, s, "the time budget of %g s is used up; nothing is written", a->of.budget_s);
     }
     FW_TRY(s);
     s = fw_accuracy_file_write(path, c, &result, m);
@@ -209,7 +164,7 @@ static fw_status accuracy(const accuracy_arguments *a, fw_msg *m)
     char        path[4096];
     fw_campaign c;
     FW_CHECK(!is_one_of_many(), m, FW_E_INPUT, "it runs on one core: start it without mpirun (it measures CPU time)");
-    FW_TRY(fw_config_campaign(&c, a->campaign, a->n_sets, a->sets, a->seed, m));
+    FW_TRY(fw_config_campaign(&c, a->of.campaign, a->of.n_sets, a->of.sets, a->of.seed, m));
     fw_status s = fw_choice_path(path, sizeof path, a->out ? a->out : c.name, m);
     if (s == FW_OK) s = check_place(path, m);
     if (s == FW_OK) s = measure(a, &c, path, m);
@@ -220,12 +175,12 @@ static fw_status accuracy(const accuracy_arguments *a, fw_msg *m)
 int fw_cmd_accuracy(int argc, char **argv)
 {
     const struct argp  argp = {.options = OPTIONS, .parser = parse, .args_doc = "CAMPAIGN.yaml", .doc = DOC};
-    accuracy_arguments a = {.seed = -1};
+    accuracy_arguments a = {.of.seed = -1};
     fw_msg             m = {.text = ""};
     argp_parse(&argp, argc, argv, 0, NULL, &a);
     fw_signals_catch();
     fw_status s = accuracy(&a, &m);
     if (s != FW_OK) fprintf(stderr, "floewear accuracy: %s\n", m.text[0] ? m.text : fw_status_sentence(s));
-    free(a.sets);
+    free(a.of.sets);
     return fw_status_exit_code(s);
 }

@@ -9,9 +9,10 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/memory.h"
+#include "cli/campaign_arguments.h"
 #include "cli/choice.h"
 #include "cli/commands.h"
 #include "cli/config.h"
@@ -22,22 +23,19 @@
 #include "cli/run_files.h"
 
 typedef struct run_arguments {
-    const char  *campaign, *out, *accuracy_from;
-    const char **sets; /* (n_sets) */
-    size_t       n_sets, sets_capacity;
-    int64_t      seed;    /* < 0: the file's */
-    int64_t      only_id; /* < 0: the whole campaign */
-    double       budget_s;
-    bool         is_fresh, is_quiet, is_json;
+    fw_campaign_arguments of; /* the campaign */
+    const char           *out, *accuracy_from;
+    int64_t               only_id; /* < 0: the whole campaign */
+    bool                  is_fresh, is_quiet, is_json;
 } run_arguments;
 
-enum { KEY_SET = 256, KEY_SEED, KEY_BUDGET, KEY_FRESH, KEY_JSON, KEY_ONLY_ID, KEY_ACCURACY };
+enum { KEY_FRESH = 256, KEY_JSON, KEY_ONLY_ID, KEY_ACCURACY };
 
 static const struct argp_option run_options[] = {
     {"output", 'o', "OUT", 0, "write OUT.journal and OUT.h5 (default: the campaign's name, in the current folder)", 0},
-    {"set", KEY_SET, "KEY=VALUE", 0, "change one key of the file, as in ice.concentration=60%; may be repeated", 0},
-    {"seed", KEY_SEED, "N", 0, "instead of the file's seed", 0},
-    {"time-budget", KEY_BUDGET, "TIME", 0, "stop in good order after this much wall-clock time, as in 2h or 90min", 0},
+    FW_OPTION_SET,
+    FW_OPTION_SEED,
+    {"time-budget", FW_KEY_BUDGET, "TIME", 0, "stop in good order after this much wall-clock time, as in 2h or 90min", 0},
     {"fresh", KEY_FRESH, NULL, 0, "start anew; an old journal is kept as OUT.journal.old", 0},
     {"accuracy-from", KEY_ACCURACY, "FILE", 0, "numerics chosen by floewear accuracy (default: OUT.accuracy.h5, if it is there)", 0},
     {"quiet", 'q', NULL, 0, "no progress on stderr", 0},
@@ -50,19 +48,9 @@ static const char run_doc[] =
     "again to go on after a stop.\vExit codes: 0 done, 2 wrong input, 3 too many failed realisations, 4 input or "
     "output error, 75 stopped early (signal or time budget).";
 
-static bool run_integer(const char *text, int64_t *out)
-{
-    char *end;
-
-    errno = 0;
-    *out  = strtoll(text, &end, 10);
-    return errno == 0 && end != text && *end == '\0' && *out >= 0;
-}
-
 static error_t run_parse(int key, char *text, struct argp_state *state)
 {
     run_arguments *a = state->input;
-    fw_msg         m = {.text = ""};
 
     switch (key) {
     case 'o': a->out = text; return 0;
@@ -70,38 +58,11 @@ static error_t run_parse(int key, char *text, struct argp_state *state)
     case KEY_ACCURACY: a->accuracy_from = text; return 0;
     case KEY_FRESH: a->is_fresh = true; return 0;
     case KEY_JSON: a->is_json = true; return 0;
-    case KEY_SET:
-        if (!strchr(text, '=')) {
-            argp_error(state, "--set %s: KEY=VALUE is wanted", text);
-            return EINVAL;
-        }
-        if (fw_grow(&a->sets, &a->sets_capacity, a->n_sets + 1, sizeof *a->sets, "--set", &m) != FW_OK) return ENOMEM;
-        a->sets[a->n_sets++] = text;
-        return 0;
-    case KEY_SEED:
-        if (run_integer(text, &a->seed)) return 0;
-        argp_error(state, "--seed %s: a whole number from 0 to %" PRId64 " is wanted", text, INT64_MAX);
-        return EINVAL;
     case KEY_ONLY_ID:
-        if (run_integer(text, &a->only_id)) return 0;
+        if (fw_argument_number(text, &a->only_id)) return 0;
         argp_error(state, "--only-id %s: a realisation's number from 0 on is wanted", text);
         return EINVAL;
-    case KEY_BUDGET:
-        if (fw_config_duration(text, &a->budget_s, &m) == FW_OK && a->budget_s > 0.0) return 0;
-        argp_error(state, "--time-budget %s: %s", text, m.text[0] ? m.text : "more than 0 s is wanted");
-        return EINVAL;
-    case ARGP_KEY_ARG:
-        if (state->arg_num > 0) {
-            argp_error(state, "one campaign file is wanted, not also %s", text);
-            return EINVAL;
-        }
-        a->campaign = text;
-        return 0;
-    case ARGP_KEY_END:
-        if (a->campaign) return 0;
-        argp_error(state, "which campaign file?");
-        return EINVAL;
-    default: return ARGP_ERR_UNKNOWN;
+    default: return fw_campaign_arguments_parse(key, text, state, &a->of);
     }
 }
 
@@ -116,14 +77,6 @@ typedef struct run_session {
     double             estimated, estimate_cost; /* when the last live estimate was made, what it took [s] */
     uint64_t           estimated_n;
 } run_session;
-
-static double run_seconds(void)
-{
-    struct timespec t;
-
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void run_quantity(const fw_campaign *c, char *out, size_t size)
 {
@@ -163,7 +116,7 @@ static fw_status run_estimate(run_session *s, uint64_t n, char *out, size_t size
 static void run_show(void *self, const fw_progress *p)
 {
     run_session *s   = self;
-    double       now = run_seconds(), half_width;
+    double       now = fw_seconds(), half_width;
     fw_msg       m   = {.text = ""};
 
     if (p->prefix >= 2 && p->prefix != s->estimated_n && now - s->estimated > fmax(2.0, 50.0 * s->estimate_cost)) {
@@ -171,7 +124,7 @@ static void run_show(void *self, const fw_progress *p)
         if (run_estimate(s, p->prefix, s->line.estimate, sizeof s->line.estimate, &half_width, &m) != FW_OK) {
             s->line.estimate[0] = '\0';
         }
-        s->estimated     = run_seconds();
+        s->estimated     = fw_seconds();
         s->estimate_cost = s->estimated - now;
         s->estimated_n   = p->prefix;
     }
@@ -335,10 +288,10 @@ static fw_status run_only(const fw_campaign *c, const run_arguments *a, fw_msg *
 
 static fw_choice_wanted run_wanted(const run_arguments *a)
 {
-    return (fw_choice_wanted){.campaign = a->campaign,
-                              .n_sets   = a->n_sets,
-                              .sets     = a->sets,
-                              .seed     = a->seed,
+    return (fw_choice_wanted){.campaign = a->of.campaign,
+                              .n_sets   = a->of.n_sets,
+                              .sets     = a->of.sets,
+                              .seed     = a->of.seed,
                               .from     = a->accuracy_from,
                               .out      = a->out};
 }
@@ -357,7 +310,7 @@ static fw_status run_lead(const run_arguments *a, fw_msg *m)
         fw_campaign_cancel();
         return status;
     }
-    c.precision.budget_s = a->budget_s;
+    c.precision.budget_s = a->of.budget_s;
     run_say_not_applied(&c);
     if (a->only_id >= 0) {
         status = run_only(&c, a, m);
@@ -398,7 +351,7 @@ static void run_follow(const run_arguments *a)
 int fw_cmd_run(int argc, char **argv)
 {
     const struct argp argp = {.options = run_options, .parser = run_parse, .args_doc = "CAMPAIGN.yaml", .doc = run_doc};
-    run_arguments     a    = {.seed = -1, .only_id = -1};
+    run_arguments     a    = {.of.seed = -1, .only_id = -1};
     fw_msg            m    = {.text = ""};
     fw_status         s;
     int               rank = 0, n_ranks = 1;
@@ -423,6 +376,6 @@ int fw_cmd_run(int argc, char **argv)
     }
     if (rank == 0 && m.text[0] && s != FW_OK) fprintf(stderr, "floewear run: %s\n", m.text);
     fw_ranks_stop();
-    free(a.sets);
+    free(a.of.sets);
     return rank == 0 ? fw_status_exit_code(s) : 0;
 }

@@ -1,7 +1,6 @@
 #include "realisation/outcome.h"
 
 #include <math.h>
-#include <time.h>
 
 void fw_outcome_fill(fw_record *r, const fw_world *w, const fw_wear *wear, double window)
 {
@@ -30,11 +29,4 @@ void fw_outcome_fill(fw_record *r, const fw_world *w, const fw_wear *wear, doubl
             for (size_t k = 0; k < wear->n_arcs; k++) to[k] = wear->load[i][q][k] * to_edge;
         }
     }
-}
-
-double fw_outcome_cpu_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }

@@ -9,6 +9,5 @@
 /* Fills everything but id, status, scenario and field columns. window [s] > 0. */
 void fw_outcome_fill(fw_record *r, const fw_world *w, const fw_wear *wear, double window);
 
-double fw_outcome_cpu_now(void); /* processor time of this process [s] */
 
 #endif

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "floewear/realisation.h"
 #include "kernel/kernel.h"
@@ -100,7 +101,7 @@ fw_status fw_realise(const fw_model *model, const fw_scenario *sc, const fw_tick
     FW_CHECK(sc->mix < model->n_mixes, m, FW_E_ARG, "thickness mix %u of %zu", sc->mix, model->n_mixes);
     FW_TRY(fw_record_init(out, model->n_arcs, model->n_laws, m));
 
-    double cpu = fw_outcome_cpu_now(), warm_up = fw_accuracy_warm_up(model, sc->speed), t_all = warm_up + model->window;
+    double cpu = fw_cpu_seconds(), warm_up = fw_accuracy_warm_up(model, sc->speed), t_all = warm_up + model->window;
     run    r = {.model = model};
     fw_status stopped = FW_OK;
     fw_accuracy_setup(&r.setup, model, sc->speed, sc->speed);
@@ -132,7 +133,7 @@ fw_status fw_realise(const fw_model *model, const fw_scenario *sc, const fw_tick
             snprintf(out->cause, sizeof out->cause, "%.*s", (int)sizeof out->cause - 1, m->text);
             m->text[0] = 0;
         }
-        out->host_cpu_s = fw_outcome_cpu_now() - cpu;
+        out->host_cpu_s = fw_cpu_seconds() - cpu;
         s = FW_OK;
     } else {
         fw_record_free(out);

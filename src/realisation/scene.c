@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "floewear/realisation.h"
 #include "kernel/kernel.h"
@@ -93,7 +94,7 @@ fw_status fw_scene_run(const fw_scene *scene, const fw_tick *tick, const fw_fram
     fw_wear    wear = {0};
     fw_accuracy_setup(&setup, &scene->model, scene->speed, fastest);
     setup.half_width = setup.downstream = INFINITY; /* no untouched ice, and nobody is forgotten */
-    double    cpu = fw_outcome_cpu_now();
+    double    cpu = fw_cpu_seconds();
     fw_status s = fw_record_init(&out->record, scene->model.n_arcs, scene->model.n_laws, m);
     if (s == FW_OK) s = fw_alloc(&out->floes, scene->n_floes, sizeof *out->floes, "floes", m);
     if (s == FW_OK)
@@ -116,7 +117,7 @@ fw_status fw_scene_run(const fw_scene *scene, const fw_tick *tick, const fw_fram
         r->speed = scene->speed;
         fw_wear_finish(&wear);
         fw_outcome_fill(r, w, &wear, scene->duration);
-        r->host_cpu_s = fw_outcome_cpu_now() - cpu;
+        r->host_cpu_s = fw_cpu_seconds() - cpu;
         const fw_wear_sums *sum = &wear.sums[0];
         double              rate = fw_abrasion_rate(&scene->model.laws[0], scene->temperature),
                edge = pow(1e-6, wear.exponent[0]) * 1e-3 * rate;

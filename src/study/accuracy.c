@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "realisation/accuracy.h"
 #include "study/accuracy_inside.h"
@@ -21,13 +21,6 @@ static const fw_accuracy_sizes SIZES[] = {
     {32, 50, 20, 5, 800, 768}, {40, 60, 20, 6, 1200, 1024},
 };
 enum { N_SIZES = sizeof SIZES / sizeof SIZES[0] };
-
-static double cpu_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* ---- what the groups share -------------------------------------------------------------------------------------- */
 
@@ -174,14 +167,14 @@ static fw_status study(fw_accuracy_run *r, fw_msg *m)
 
 fw_status fw_accuracy_study(fw_accuracy *out, const fw_campaign *c, const fw_accuracy_options *o, fw_msg *m)
 {
-    double          start = cpu_now();
+    double          start = fw_cpu_seconds();
     fw_accuracy_run r = {.c = c, .o = o, .out = out, .model = c->model};
     memset(out, 0, sizeof *out);
     FW_CHECK(c->points.n > 0, m, FW_E_ARG, "the campaign has no measuring points");
     r.model.numerics = (fw_numerics){
         .scheme = FW_SCHEME_EVENTS}; /* what the file may say of them is what is being judged */
     fw_status s = study(&r, m);
-    out->cpu_s = cpu_now() - start;
+    out->cpu_s = fw_cpu_seconds() - start;
     free(r.windows);
     free(r.sample);
     free(r.points);
