@@ -5,6 +5,13 @@
 #include "geometry/ring.h"
 #include "kernel/cluster.h"
 
+bool fw_books_overlap(fw_ledger *l, double small, double depth)
+{
+    l->max_overlap = fw_larger(l->max_overlap, depth);
+    l->max_overlap_share = fw_larger(l->max_overlap_share, depth / small);
+    return depth > 0.1 * small;
+}
+
 static void shove(fw_member *m, double jx, double jy, double rub)
 {
     m->gained[0] += jx * m->own_inv_mass, m->gained[1] += jy * m->own_inv_mass;
@@ -48,10 +55,7 @@ static void keep_pair(const fw_cluster *c, const fw_books *books, const fw_pair 
                            : to > 0           ? h * to / (to - from)
                                               : 0;
     }
-    double small = fw_smaller(a->radius, b ? b->radius : books->setup->structure_radius), d = p->depth[last];
-    l->max_overlap = fw_larger(l->max_overlap, d);
-    l->max_overlap_share = fw_larger(l->max_overlap_share, d / small);
-    if (d > 0.1 * small) *is_beyond = true;
+    if (fw_books_overlap(l, fw_smaller(a->radius, b ? b->radius : books->setup->structure_radius), p->depth[last])) *is_beyond = true;
 }
 
 void fw_books_keep(const fw_cluster *c, const fw_books *books)

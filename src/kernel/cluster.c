@@ -240,7 +240,7 @@ static double careful(const fw_cluster *c, double h)
     return h;
 }
 
-static fw_status not_finite(const fw_cluster *c, const fw_books *books, fw_msg *msg)
+fw_status fw_cluster_not_finite(const fw_cluster *c, const fw_books *books, fw_msg *msg)
 {
     return fw_fail(msg, FW_E_NUMERIC, "the state of floe %llu is not finite at t = %.6g s",
                    (unsigned long long)books->world->bodies[c->members[0].index].name, c->t0);
@@ -263,7 +263,7 @@ static fw_status attempt_until_good(fw_cluster *c, const fw_books *books, double
         *h *= fw_smaller(f, 0.9);
         books->world->ledger.rejected++;
     }
-    return isfinite(*err) ? FW_OK : not_finite(c, books, msg);
+    return isfinite(*err) ? FW_OK : fw_cluster_not_finite(c, books, msg);
 }
 
 fw_status fw_cluster_try(fw_cluster *c, const fw_books *books, double limit, fw_msg *msg)
@@ -274,8 +274,7 @@ fw_status fw_cluster_try(fw_cluster *c, const fw_books *books, double limit, fw_
     if (!(c->h < INFINITY)) c->h = set->first_step / c->omega;
     c->h = fw_smaller(c->h, set->max_step / set->velocity_scale);
     c->h = careful(c, c->h);
-    /* No sliver at the end: two halves instead. */
-    double h = c->h >= left ? left : c->h > 0.5 * left ? 0.5 * left : c->h, wanted = c->h, tried = h, err;
+    double h = fw_step_without_sliver(c->h, left), wanted = c->h, tried = h, err;
     FW_TRY(attempt_until_good(c, books, &h, &err, msg));
     if (h < tried) wanted = h;
     c->t1 = c->t0 + h;
@@ -297,7 +296,7 @@ fw_status fw_cluster_land(fw_cluster *c, const fw_books *books, double t, fw_msg
 {
     if (fw_lone_is(c, books)) return fw_lone_land(c, books, t, msg);
     double err = attempt(c, books, t - c->t0);
-    if (!isfinite(err)) return not_finite(c, books, msg);
+    if (!isfinite(err)) return fw_cluster_not_finite(c, books, msg);
     c->t1 = t;
     return FW_OK;
 }

@@ -98,12 +98,16 @@ fw_status fw_cluster_close(fw_cluster *c, const fw_books *b, int32_t a, int32_t 
 void      fw_cluster_restart(fw_cluster *c, const fw_books *b);
 /* A step from t0 whose error is within the tolerance, at most to limit. FW_E_NUMERIC: the state is not finite. */
 fw_status fw_cluster_try(fw_cluster *c, const fw_books *b, double limit, fw_msg *m);
+/* Length of the next step: h or what is left, and no sliver at the end, two halves instead. */
+static inline double fw_step_without_sliver(double h, double left) { return h >= left ? left : h > 0.5 * left ? 0.5 * left : h; }
 /* The same, cut to end at t exactly, t0 < t < t1. A part of a step whose error was tolerable is taken whatever its own estimate says: ending
  * earlier would leave a gap that others have passed already. */
 fw_status fw_cluster_land(fw_cluster *c, const fw_books *b, double t, fw_msg *m);
 /* The tried step becomes truth: books, wear, bodies. Contacts that let go are taken out; opened lists their candidates. */
 fw_status fw_cluster_commit(fw_cluster *c, const fw_books *b, int32_t *opened, size_t *n_opened, fw_msg *m);
 void      fw_cluster_free(fw_cluster *c);
+
+fw_status fw_cluster_not_finite(const fw_cluster *c, const fw_books *b, fw_msg *m); /* says so; FW_E_NUMERIC */
 
 /* When in the tried step, at the latest at its end, does the structure's force on a floe vanish [s after t0]? It presses at t0 and not at t1.
  * A parabola through the force and its slope at t0 and the first stage without force. */
@@ -115,6 +119,8 @@ double fw_member_fastest(const fw_member *m, double speed, double inv_h);
 /* books.c: of the tried step */
 void                 fw_books_keep(const fw_cluster *c, const fw_books *b);
 void                 fw_books_wear(const fw_cluster *c, const fw_books *b);
+/* An overlap of discs, the smaller one of radius `small`, after a step; true: beyond what soft contact is meant for. */
+bool                 fw_books_overlap(fw_ledger *l, double small, double depth);
 static inline double fw_pair_signed_normal(const fw_pair *p, size_t s)
 {
     return p->law.k * p->depth[s] + p->law.c * p->rate[s];

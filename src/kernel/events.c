@@ -22,7 +22,14 @@ static fw_status look_ahead(fw_kernel *k, fw_cluster *c, fw_msg *m)
     return FW_OK;
 }
 
-/* After a change of cluster c at its t0: the parts try their next steps, then everybody looks ahead. freed: members of old. */
+/* Clusters a and b, either may be NULL, have new paths. */
+static fw_status both_look_ahead(fw_kernel *k, fw_cluster *a, fw_cluster *b, fw_msg *m)
+{
+    if (a) FW_TRY(look_ahead(k, a, m));
+    return b && b != a ? look_ahead(k, b, m) : FW_OK;
+}
+
+/* After a change of cluster c at its t0: the parts try their next steps, then everybody looks ahead, freed floes too. */
 static fw_status go_on(fw_kernel *k, fw_cluster *c, double t_end, bool may_fall_apart, fw_msg *m)
 {
     if (!may_fall_apart) {
@@ -123,7 +130,7 @@ static double pair_omega(const fw_kernel *k, const fw_candidate *e)
     } else if (e->j == FW_ICE) {
         const fw_block *b = &w->blocks[e->block];
         double          r = b->radius[e->row];
-        inv += 1 / (k->traffic.setup.ice_density * 3.14159265358979323846 * r * r * b->thickness[e->row]);
+        inv += 1 / fw_kernel_floe_mass(&k->traffic.setup, r, b->thickness[e->row]);
     }
     return sqrt(k->traffic.setup.contact.stiffness * inv);
 }
@@ -249,8 +256,7 @@ fw_status fw_event_touch(fw_kernel *k, int32_t c, double t_end, fw_msg *m)
     FW_TRY(locate(k, c, a, b, &at, &closing, &is_touch, m));
     if (!is_touch) {
         /* Steps were cut and paths have changed with them. */
-        if (a) FW_TRY(look_ahead(k, a, m));
-        if (b && b != a) FW_TRY(look_ahead(k, b, m));
+        FW_TRY(both_look_ahead(k, a, b, m));
         if (a || b) return FW_OK;
         t->now = at; /* two free floes graze each other: look again from here on */
         fw_traffic_check(t, c);
@@ -258,8 +264,7 @@ fw_status fw_event_touch(fw_kernel *k, int32_t c, double t_end, fw_msg *m)
     }
     if (at > t->candidates[c].touch && !(is_first(k, c, a, b, at) && at <= fw_smaller(t_end, t->until))) {
         /* Landing moved the touch past another event: that one comes first. The steps are cut where the touch is now. */
-        if (a) FW_TRY(look_ahead(k, a, m));
-        if (b && b != a) FW_TRY(look_ahead(k, b, m));
+        FW_TRY(both_look_ahead(k, a, b, m));
         fw_traffic_touches_at(t, c, at);
         return FW_OK;
     }

@@ -56,4 +56,8 @@ fw_status fw_kernel_step(fw_kernel *k, fw_world *w, fw_wear *wear, double t_end,
 /* Untouched ice that the next step wants in the world: from x on, for y from low to high (kernel frame [m]). */
 void      fw_kernel_needs_ice(const fw_kernel *k, const fw_world *w, double *from, double *low, double *high);
 
+/* An ice floe: its mass [kg], and a body at rest in the origin with all that follows from its size. */
+double  fw_kernel_floe_mass(const fw_setup *s, double radius, double thickness);
+fw_body fw_kernel_floe(const fw_setup *s, double radius, double thickness);
+
 #endif

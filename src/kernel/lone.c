@@ -371,12 +371,6 @@ static void finish(fw_cluster *c, const fw_books *b, double length)
         p->depth[last] = fw_smaller(y.depth, -DBL_MIN);
 }
 
-static fw_status not_finite(const fw_cluster *c, const fw_books *books, fw_msg *msg)
-{
-    return fw_fail(msg, FW_E_NUMERIC, "the state of floe %llu is not finite at t = %.6g s",
-                   (unsigned long long)books->world->bodies[c->members[0].index].name, c->t0);
-}
-
 /* The error falls like h^3 or h^4 (stiff or not): the fourth root is the careful one for growing, and cheap. */
 static double step_factor(double err) { return 0.9 / sqrt(sqrt(err)); }
 
@@ -394,8 +388,7 @@ fw_status fw_lone_try(fw_cluster *c, const fw_books *b, double limit, fw_msg *ms
     begin(c, b);
     if (!(c->h < INFINITY) || p->since_touch == 0) c->h = FIRST_STEP / omega;
     c->h = fw_smaller(c->h, set->max_step / set->velocity_scale);
-    /* No sliver at the end: two halves instead. */
-    double h = c->h >= left ? left : c->h > 0.5 * left ? 0.5 * left : c->h, wanted = c->h, tried = h;
+    double h = fw_step_without_sliver(c->h, left), wanted = c->h, tried = h;
     for (;;) {
         err = attempt(c, b, h, &event);
         if (err <= 1 || h * omega <= SHORTEST) break;
@@ -404,7 +397,7 @@ fw_status fw_lone_try(fw_cluster *c, const fw_books *b, double limit, fw_msg *ms
         h *= f;
         b->world->ledger.rejected++;
     }
-    if (!isfinite(err)) return not_finite(c, b, msg);
+    if (!isfinite(err)) return fw_cluster_not_finite(c, b, msg);
     if (h < tried) wanted = h;
     double f = err > 0 ? fw_smaller(set->growth, step_factor(err)) : set->growth;
     c->h = h < wanted ? fw_larger(wanted, h * f) : h * f;
@@ -419,7 +412,7 @@ fw_status fw_lone_land(fw_cluster *c, const fw_books *b, double t, fw_msg *msg)
 {
     double h = t - c->t0, event;
     /* An earlier end needs no new step: the forms hold at any time within the span. */
-    if (!(h <= c->lone.span * (1 + 1e-9)) && !isfinite(attempt(c, b, h, &event))) return not_finite(c, b, msg);
+    if (!(h <= c->lone.span * (1 + 1e-9)) && !isfinite(attempt(c, b, h, &event))) return fw_cluster_not_finite(c, b, msg);
     finish(c, b, h);
     c->t1 = c->lone.t1 = t;
     return FW_OK;

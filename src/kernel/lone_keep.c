@@ -104,10 +104,7 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
         double d0 = fw_larger(0, L->from.depth), d1 = fw_larger(0, e->depth);
         l->dropped += 0.5 * p->law.k * (d0 * d0 - d1 * d1);
     }
-    double small = fw_smaller(m->radius, set->structure_radius);
-    l->max_overlap = fw_larger(l->max_overlap, e->depth);
-    l->max_overlap_share = fw_larger(l->max_overlap_share, e->depth / small);
-    if (e->depth > 0.1 * small) l->overlap_time += h;
+    if (fw_books_overlap(l, fw_smaller(m->radius, set->structure_radius), e->depth)) l->overlap_time += h;
     /* The contact's impulse along a turning normal has no closed form: it is what drag leaves of the change of momentum. So the two books of
      * impulses agree by construction here; the balance of work (dashpot, friction, drag, each by its own quadrature) is what checks. */
     double in[3] = {mass, mass, m->inv_inertia > 0 ? 1 / m->inv_inertia : 0}, work = 0;

@@ -16,18 +16,9 @@ static fw_status add_floes(fw_world *w, const fw_scene *scene, const fw_setup *s
 {
     for (size_t i = 0; i < scene->n_floes; i++) {
         const fw_floe *f = &scene->floes[i];
-        double  r = 0.5 * f->diameter, mass = scene->model.ice_density * 3.14159265358979323846 * r * r * f->thickness;
-        fw_body b = {.x = f->x,
-                     .y = f->y,
-                     .vx = f->vx,
-                     .vy = f->vy,
-                     .spin = f->spin,
-                     .radius = r,
-                     .thickness = f->thickness,
-                     .inv_mass = 1 / mass,
-                     .inv_inertia = s->has_rotation ? 2 / (mass * r * r) : 0,
-                     .drag = s->drag_per_area * f->diameter * f->thickness,
-                     .name = i + 1};
+        fw_body        b = fw_kernel_floe(s, 0.5 * f->diameter, f->thickness);
+        b.x = f->x, b.y = f->y, b.vx = f->vx, b.vy = f->vy, b.spin = f->spin;
+        b.name = i + 1;
         FW_TRY(fw_world_add_body(w, &b, m));
         /* Given floes may meet each other anywhere: none of them drifts undisturbed. */
         w->bodies[w->n_bodies - 1].is_touched = true;
