@@ -8,17 +8,11 @@
 
 fw_status fw_cover_reset(fw_cover *c, double x0, double x1, double y0, double y1, bool wraps_y, double cell, fw_msg *m)
 {
-    double nx = floor((x1 - x0) / cell), ny = floor((y1 - y0) / cell);
-    c->x0 = x0;
-    c->y0 = y0;
+    c->at = fw_squares_of(x0, x1, y0, y1, cell);
     c->wraps_y = wraps_y;
-    c->nx = nx < 1.0 ? 1 : (int32_t)nx;
-    c->ny = ny < 1.0 ? 1 : (int32_t)ny;
-    c->per_x = c->nx / (x1 - x0);
-    c->per_y = c->ny / (y1 - y0);
     c->n_nodes = 0;
     c->free_node = -1;
-    size_t n_cells = (size_t)c->nx * (size_t)c->ny;
+    size_t n_cells = (size_t)c->at.nx * (size_t)c->at.ny;
     FW_TRY(fw_grow(&c->first, &c->cells_capacity, n_cells, sizeof *c->first, "cells of an ice tile", m));
     memset(c->first, 0xff, n_cells * sizeof *c->first); /* all -1 */
     return FW_OK;
@@ -37,20 +31,20 @@ void fw_cover_free(fw_cover *c)
 static void row_span(const fw_cover *c, int32_t iy, double x, double y, double r, int32_t *begin, int32_t *end)
 {
     double reach = r * (1.0 + 1e-9) + 2e-6;
-    double low = c->y0 + iy / c->per_y, high = c->y0 + (iy + 1) / c->per_y;
+    double low = c->at.y0 + iy / c->at.per_y, high = c->at.y0 + (iy + 1) / c->at.per_y;
     double away = y < low ? low - y : y > high ? y - high : 0.0;
     /* Outermost rows also stand for all that lies beyond them. */
-    if (!c->wraps_y && ((iy == 0 && y < low) || (iy == c->ny - 1 && y > high))) away = 0.0;
+    if (!c->wraps_y && ((iy == 0 && y < low) || (iy == c->at.ny - 1 && y > high))) away = 0.0;
     double half = away < reach ? sqrt(reach * reach - away * away) : 0.0;
-    *begin = fw_cover_clip((x - half - c->x0) * c->per_x, c->nx);
-    *end = fw_cover_clip((x + half - c->x0) * c->per_x, c->nx) + 1;
+    *begin = fw_cover_clip((x - half - c->at.x0) * c->at.per_x, c->at.nx);
+    *end = fw_cover_clip((x + half - c->at.x0) * c->at.per_x, c->at.nx) + 1;
 }
 
 static int32_t *head_of(fw_cover *c, int32_t ix, int32_t iy)
 {
-    if (iy < 0) iy += c->ny;
-    if (iy >= c->ny) iy -= c->ny;
-    return &c->first[iy * c->nx + ix];
+    if (iy < 0) iy += c->at.ny;
+    if (iy >= c->at.ny) iy -= c->at.ny;
+    return &c->first[iy * c->at.nx + ix];
 }
 
 static fw_status new_node(fw_cover *c, int32_t *node, fw_msg *m)

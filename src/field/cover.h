@@ -13,6 +13,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "field/squares.h"
 #include "floewear/status.h"
 
 typedef struct fw_cover_node {
@@ -20,9 +21,7 @@ typedef struct fw_cover_node {
 } fw_cover_node;
 
 typedef struct fw_cover {
-    double         x0, y0;       /* low corner [m] */
-    double         per_x, per_y; /* cells per metre */
-    int32_t        nx, ny;
+    fw_squares     at;
     bool           wraps_y; /* row -1 is row ny - 1 */
     int32_t       *first;   /* head node of each cell, -1 when empty  (nx * ny) */
     fw_cover_node *nodes;   /* (n_nodes), freed ones chained from free_node */
@@ -47,29 +46,23 @@ typedef struct fw_cover_box {
 
 static inline int32_t fw_cover_clip(double t, int32_t n) { return t <= 0.0 ? 0 : t >= (double)n ? n - 1 : (int32_t)t; }
 
-static inline int32_t fw_cover_floor(double t)
-{
-    int32_t i = (int32_t)t;
-    return i - (t < (double)i);
-}
-
 static inline fw_cover_box fw_cover_under(const fw_cover *c, double x, double y, double r)
 {
     fw_cover_box b;
-    double       low = (y - r - c->y0) * c->per_y, high = (y + r - c->y0) * c->per_y;
-    b.x_begin = fw_cover_clip((x - r - c->x0) * c->per_x, c->nx);
-    b.x_end = fw_cover_clip((x + r - c->x0) * c->per_x, c->nx) + 1;
-    b.y_begin = c->wraps_y ? fw_cover_floor(low) : fw_cover_clip(low, c->ny);
-    b.y_end = (c->wraps_y ? fw_cover_floor(high) : fw_cover_clip(high, c->ny)) + 1;
+    double       low = (y - r - c->at.y0) * c->at.per_y, high = (y + r - c->at.y0) * c->at.per_y;
+    b.x_begin = fw_cover_clip((x - r - c->at.x0) * c->at.per_x, c->at.nx);
+    b.x_end = fw_cover_clip((x + r - c->at.x0) * c->at.per_x, c->at.nx) + 1;
+    b.y_begin = c->wraps_y ? fw_squares_floor(low) : fw_cover_clip(low, c->at.ny);
+    b.y_end = (c->wraps_y ? fw_squares_floor(high) : fw_cover_clip(high, c->at.ny)) + 1;
     return b;
 }
 
 /* First node of a cell of a box, -1 when empty. */
 static inline int32_t fw_cover_head(const fw_cover *c, int32_t ix, int32_t iy)
 {
-    if (iy < 0) iy += c->ny;
-    if (iy >= c->ny) iy -= c->ny;
-    return c->first[iy * c->nx + ix];
+    if (iy < 0) iy += c->at.ny;
+    if (iy >= c->at.ny) iy -= c->at.ny;
+    return c->first[iy * c->at.nx + ix];
 }
 
 #endif

@@ -17,18 +17,11 @@ static void clear(fw_nearby_some *s)
 fw_status fw_nearby_reset(fw_nearby *b, double x0, double x1, double y0, double y1, bool wraps_y, double cell,
                           double r_most, fw_msg *m)
 {
-    double nx = floor((x1 - x0) / cell), ny = floor((y1 - y0) / cell);
-    b->x0 = x0;
-    b->y0 = y0;
-    b->nx = nx < 1.0 ? 1 : (int32_t)nx;
-    b->ny = ny < 1.0 ? 1 : (int32_t)ny;
-    b->per_x = b->nx / (x1 - x0);
-    b->per_y = b->ny / (y1 - y0);
-    b->cell_x = (x1 - x0) / b->nx;
-    b->cell_y = (y1 - y0) / b->ny;
+    b->at = fw_squares_of(x0, x1, y0, y1, cell);
+    b->cell_y = (y1 - y0) / b->at.ny;
     b->height = wraps_y ? y1 - y0 : INFINITY;
     b->r_most = r_most;
-    b->n_some = (size_t)b->nx * (size_t)b->ny;
+    b->n_some = (size_t)b->at.nx * (size_t)b->at.ny;
     FW_TRY(fw_grow(&b->some, &b->capacity, b->n_some, sizeof *b->some, "cells of an ice tile", m));
     for (size_t k = 0; k < b->n_some; k++) clear(&b->some[k]);
     return FW_OK;
@@ -38,12 +31,6 @@ void fw_nearby_free(fw_nearby *b)
 {
     free(b->some);
     *b = (fw_nearby){0};
-}
-
-static int32_t floor_of(double t)
-{
-    int32_t i = (int32_t)t;
-    return i - (t < (double)i);
 }
 
 /* Room for one more disc in a cell: the full ones move back, so that the head has it. */
@@ -59,17 +46,18 @@ static fw_status make_room(fw_nearby *b, int32_t cell, fw_msg *m)
 
 fw_status fw_nearby_add(fw_nearby *b, double x, double y, double r, fw_msg *m)
 {
-    const fw_nearby at = *b; /* a copy: what is written to the lists could be the grid's own numbers, for all C knows */
+    const fw_squares at = b->at; /* a copy: what is written to the lists could be the grid's own numbers, for all C knows */
+    const double     r_most = b->r_most, height = b->height, cell_y = b->cell_y;
     /* A little further than needed: rounding must not let a place fall between two cells. */
-    double          reach = (r + at.r_most) * (1.0 + 1e-9) + 2e-6, at_x = x - at.x0, at_y = y - at.y0;
+    double          reach = (r + r_most) * (1.0 + 1e-9) + 2e-6, at_x = x - at.x0, at_y = y - at.y0;
     double          low = (at_y - reach) * at.per_y, high = (at_y + reach) * at.per_y;
-    bool            wraps = at.height < INFINITY;
-    int32_t         begin = floor_of(wraps || low > 0.0 ? low : 0.0);
-    int32_t         end = floor_of(wraps || high < at.ny ? high : at.ny - 1.0) + 1;
+    bool            wraps = height < INFINITY;
+    int32_t         begin = fw_squares_floor(wraps || low > 0.0 ? low : 0.0);
+    int32_t         end = fw_squares_floor(wraps || high < at.ny ? high : at.ny - 1.0) + 1;
     bool is_all_round = wraps && end - begin > at.ny; /* as tall as the box: every row, and each of them once */
     if (is_all_round) begin = 0, end = at.ny;
     for (int32_t iy = begin; iy < end; iy++) {
-        double  away = larger(0.0, larger(iy * at.cell_y - at_y, at_y - (iy + 1) * at.cell_y));
+        double  away = larger(0.0, larger(iy * cell_y - at_y, at_y - (iy + 1) * cell_y));
         double  half = is_all_round ? reach : sqrt(larger(0.0, reach * reach - away * away));
         double  left = (at_x - half) * at.per_x, right = (at_x + half) * at.per_x;
         int32_t row = (iy < 0 ? iy + at.ny : iy >= at.ny ? iy - at.ny : iy) * at.nx;

@@ -11,6 +11,7 @@
 #include <stdint.h>
 
 #include "field/abreast.h"
+#include "field/squares.h"
 #include "floewear/status.h"
 
 enum { FW_NEARBY_SOME = FW_ABREAST };
@@ -21,12 +22,10 @@ typedef struct fw_nearby_some {
 } fw_nearby_some;
 
 typedef struct fw_nearby {
-    double          x0, y0;         /* low corner [m] */
-    double          per_x, per_y;   /* cells per metre */
-    double          cell_x, cell_y; /* sides [m] */
+    fw_squares      at;
+    double          cell_y; /* height of a cell [m] */
     double          height;         /* of the box when it wraps in y, else infinite [m] */
     double          r_most;         /* largest radius to be asked for [m] */
-    int32_t         nx, ny;
     fw_nearby_some *some; /* the first nx * ny are the heads of the cells */
     size_t          n_some, capacity;
 } fw_nearby;
@@ -40,8 +39,8 @@ fw_status fw_nearby_add(fw_nearby *b, double x, double y, double r, fw_msg *m);
 /* Is the place taken by a listed disc? */
 static inline bool fw_nearby_is_taken(const fw_nearby *b, fw_place at)
 {
-    int32_t ix = (int32_t)((at.x - b->x0) * b->per_x), iy = (int32_t)((at.y - b->y0) * b->per_y);
-    int32_t k = (iy < b->ny ? iy : b->ny - 1) * b->nx + (ix < b->nx ? ix : b->nx - 1);
+    int32_t ix = (int32_t)((at.x - b->at.x0) * b->at.per_x), iy = (int32_t)((at.y - b->at.y0) * b->at.per_y);
+    int32_t k = (iy < b->at.ny ? iy : b->at.ny - 1) * b->at.nx + (ix < b->at.nx ? ix : b->at.nx - 1);
     do {
         const fw_nearby_some *s = &b->some[k];
         if (fw_abreast_is_taken(s->x, s->y, s->r, FW_NEARBY_SOME, at)) return true;
