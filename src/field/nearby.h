@@ -24,9 +24,9 @@ typedef struct fw_nearby_some {
 typedef struct fw_nearby {
     fw_squares      at;
     double          cell_y; /* height of a cell [m] */
-    double          height;         /* of the box when it wraps in y, else infinite [m] */
-    double          r_most;         /* largest radius to be asked for [m] */
-    fw_nearby_some *some; /* the first nx * ny are the heads of the cells */
+    double          height; /* of the box when it wraps in y, else infinite [m] */
+    double          r_most; /* largest radius to be asked for [m] */
+    fw_nearby_some *some;   /* the first at.nx * at.ny are the heads of the cells */
     size_t          n_some, capacity;
 } fw_nearby;
 
