@@ -65,23 +65,31 @@ static double value(size_t n, const double *c, double u)
     return sum;
 }
 
-static void know_stages(fw_rule *r, const fw_wear_interval *iv)
+static bool are_of(const struct fw_rule_stages *s, const fw_wear_interval *iv)
 {
-    size_t n = iv->n_stages;
-    bool   is_known = n == r->n_stages;
-    for (size_t i = 0; i < n && is_known; i++) is_known = iv->at[i] == r->at[i];
-    if (is_known) return;
-    r->n_stages = n;
-    for (size_t i = 0; i < n; i++) r->at[i] = iv->at[i];
-    lagrange(n, iv->at, FW_WEAR_STAGES, &r->to_power[0][0]);
+    bool is_same = s->n == iv->n_stages;
+    for (size_t i = 0; i < iv->n_stages && is_same; i++) is_same = iv->at[i] == s->at[i];
+    return is_same;
+}
+
+static const struct fw_rule_stages *know_stages(fw_rule *r, const fw_wear_interval *iv)
+{
+    if (are_of(&r->known[r->last], iv)) return &r->known[r->last];
+    r->last = 1 - r->last;
+    struct fw_rule_stages *s = &r->known[r->last];
+    if (are_of(s, iv)) return s;
+    size_t n = s->n = iv->n_stages;
+    for (size_t i = 0; i < n; i++) s->at[i] = iv->at[i];
+    lagrange(n, iv->at, FW_WEAR_STAGES, &s->to_power[0][0]);
     for (size_t i = 0; i < n; i++)
         for (size_t q = 0; q < 4; q++) {
             double u = NODE3[q < 3 ? q : 1], sum = 0;
-            for (size_t k = n; k-- > 0;) sum = sum * u + r->to_power[k][i];
-            r->to_node[i][q] = sum, sum = 0;
-            for (size_t k = n; k-- > 0;) sum = sum * NODE4[q] + r->to_power[k][i];
-            r->to_touch[i][q] = sum;
+            for (size_t k = n; k-- > 0;) sum = sum * u + s->to_power[k][i];
+            s->to_node[i][q] = sum, sum = 0;
+            for (size_t k = n; k-- > 0;) sum = sum * NODE4[q] + s->to_power[k][i];
+            s->to_touch[i][q] = sum;
         }
+    return s;
 }
 
 static void through_stages(fw_rule *r, const fw_wear_interval *iv, course *c)
@@ -92,21 +100,22 @@ static void through_stages(fw_rule *r, const fw_wear_interval *iv, course *c)
         c->normal[0] = iv->normal[0], c->normal[1] = iv->normal[1] - iv->normal[0];
         c->slip[0] = iv->slip[0], c->slip[1] = iv->slip[1] - iv->slip[0];
     } else {
-        know_stages(r, iv);
+        const struct fw_rule_stages *s = know_stages(r, iv);
         for (size_t k = 0; k < n; k++) {
             double normal = 0, slip = 0;
             for (size_t i = 0; i < n; i++) {
-                normal += r->to_power[k][i] * iv->normal[i];
-                slip += r->to_power[k][i] * iv->slip[i];
+                normal += s->to_power[k][i] * iv->normal[i];
+                slip += s->to_power[k][i] * iv->slip[i];
             }
             c->normal[k] = normal, c->slip[k] = slip;
         }
     }
     c->n_depth = iv->has_overlap ? n : 4;
     if (iv->has_overlap) {
+        const struct fw_rule_stages *s = know_stages(r, iv);
         for (size_t k = 0; k < n; k++) {
             c->depth[k] = 0;
-            for (size_t i = 0; i < n; i++) c->depth[k] += r->to_power[k][i] * iv->overlap[i];
+            for (size_t i = 0; i < n; i++) c->depth[k] += s->to_power[k][i] * iv->overlap[i];
         }
         return;
     }
@@ -248,11 +257,11 @@ static bool is_touch(fw_rule *r, const fw_wear_interval *restrict iv, fw_rule_no
     double              na = iv->normal[0], nb = iv->normal[last], length = iv->length;
     if (last < 2 || iv->since_touch >= EARLY * length || !(na > 0) || !(nb > 0)) return false;
     if (nb < FADED * na || na <= GROWN * nb || !(iv->slip[0] * iv->slip[last] > 0)) return false;
-    know_stages(r, iv);
+    const struct fw_rule_stages *stages = know_stages(r, iv);
     double s0 = length * iv->rate[0], s1 = length * iv->rate[1], normal[4] = {0}, slip[4] = {0};
     for (size_t i = 0; i <= last; i++)
         for (size_t q = 0; q < 4; q++)
-            normal[q] += r->to_touch[i][q] * iv->normal[i], slip[q] += r->to_touch[i][q] * iv->slip[i];
+            normal[q] += stages->to_touch[i][q] * iv->normal[i], slip[q] += stages->to_touch[i][q] * iv->slip[i];
     for (size_t q = 0; q < 4; q++) {
         to->normal[q] = normal[q], to->slip[q] = slip[q], to->u[q] = NODE4[q], to->dt[q] = WEIGHT4[q] * length;
         to->from[q] = END[q], to->to[q] = END[q + 1];
@@ -278,7 +287,7 @@ bool fw_rule_is_smooth(fw_rule *r, fw_wear_rule rule, const fw_wear_interval *re
         }
         return iv->depth[0] > 0 && iv->depth[1] > 0;
     }
-    know_stages(r, iv);
+    const struct fw_rule_stages *stages = know_stages(r, iv);
     double s0 = iv->length * iv->rate[0], s1 = iv->length * iv->rate[1];
     for (size_t q = 0; q < 4; q++) {
         to->normal[q] = to->slip[q] = 0;
@@ -287,7 +296,7 @@ bool fw_rule_is_smooth(fw_rule *r, fw_wear_rule rule, const fw_wear_interval *re
     for (size_t i = 0; i <= last; i++) {
         double normal = iv->normal[i], slip = iv->slip[i];
         for (size_t q = 0; q < 4; q++)
-            to->normal[q] += r->to_node[i][q] * normal, to->slip[q] += r->to_node[i][q] * slip;
+            to->normal[q] += stages->to_node[i][q] * normal, to->slip[q] += stages->to_node[i][q] * slip;
     }
     bool is_loaded = true;
     for (size_t q = 0; q < 3; q++) is_loaded &= to->normal[q] > 0 && to->depth[q] > 0;

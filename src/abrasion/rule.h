@@ -77,6 +77,15 @@ typedef struct fw_rule_smooth {
     double normal[4], slip[4], depth[4];
 } fw_rule_smooth;
 
+/* What follows from the stages' instants alone. */
+struct fw_rule_stages {
+    size_t n;
+    double at[FW_WEAR_STAGES];
+    double to_power[FW_WEAR_STAGES][FW_WEAR_STAGES]; /* coefficient of u^k = sum over i of [k][i] value[i] */
+    double to_node[FW_WEAR_STAGES][4];               /* value at smooth node q = sum over i of [i][q] value[i] */
+    double to_touch[FW_WEAR_STAGES][FW_RULE_TOUCH];  /* the same at touch nodes */
+};
+
 /* What does not change from interval to interval. */
 typedef struct fw_rule {
     size_t n_laws;
@@ -85,11 +94,8 @@ typedef struct fw_rule {
     /* 1 / (k + e) for moments of t^(e-1): e of path on the wall, of each law along the contact and on the wall */
     double   wide[FW_RULE_TOUCH], along[FW_MAX_LAWS][FW_RULE_TOUCH], wall[FW_MAX_LAWS][FW_RULE_TOUCH];
     fw_power start[FW_MAX_LAWS]; /* t^e along the contact */
-    size_t n_stages;                            /* the stages of the interval before: methods seldom change */
-    double at[FW_WEAR_STAGES];
-    double to_power[FW_WEAR_STAGES][FW_WEAR_STAGES]; /* coefficient of u^k = sum over i of [k][i] value[i] */
-    double to_node[FW_WEAR_STAGES][4];               /* value at smooth node q = sum over i of [i][q] value[i] */
-    double to_touch[FW_WEAR_STAGES][FW_RULE_TOUCH];  /* the same at touch nodes */
+    struct fw_rule_stages known[2]; /* of the last two kinds of interval: those of the method and those of a lone floe */
+    size_t                last;     /* which of them the last interval was of */
 } fw_rule;
 
 void fw_rule_init(fw_rule *r, size_t n_laws, const double *exponent);

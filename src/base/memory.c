@@ -15,12 +15,11 @@ fw_status fw_alloc(void *out, size_t n, size_t size, const char *what, fw_msg *m
     return FW_OK;
 }
 
-fw_status fw_grow(void *p, size_t *capacity, size_t wanted, size_t size, const char *what, fw_msg *m)
+fw_status fw_grow_now(void *p, size_t *capacity, size_t wanted, size_t size, const char *what, fw_msg *m)
 {
     void  *old, *new;
     size_t n = *capacity ? *capacity : 8;
 
-    if (wanted <= *capacity) return FW_OK;
     while (n < wanted) n = n > SIZE_MAX / 2 ? wanted : 2 * n;
     FW_CHECK(size == 0 || n <= PTRDIFF_MAX / size, m, FW_E_NOMEM, "out of memory: %s, %zu times %zu bytes", what, n,
              size);

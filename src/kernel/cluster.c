@@ -14,6 +14,9 @@ static const double TURN_AT_END = 0.98; /* share of a step past which a turn of 
 static const double SHORT = 0.01;       /* step in 1/w that no turn of force is looked for in */
 static const double SLIVER = 1e-6;      /* step in 1/w */
 static const double SHORTEST = 1e-9;    /* steps below this, in 1/w, are taken whatever their error */
+/* First step after a touch of two floes, over the one after a touch at that speed of the structure, where it is wear as well: there no step
+ * was refused and nearly all grew by as much as they may; four times as long a one puts the energy of two floes 1.3 % out. */
+static const double BETWEEN_FLOES = 2.5;
 
 void fw_cluster_free(fw_cluster *c)
 {
@@ -88,7 +91,7 @@ fw_status fw_cluster_close(fw_cluster *c, const fw_books *books, int32_t a, int3
     books->world->ledger.touches++;
     /* A gentle touch is a small jump: the local error of a step h grows with the jump times h^2, so its first step may be
      * longer. On the structure the pressure's start is wear, whatever the speed. */
-    double share = eb ? cbrt(set->velocity_scale / fw_larger(rate, 1e-3 * set->velocity_scale)) : 1;
+    double share = eb ? BETWEEN_FLOES * cbrt(set->velocity_scale / fw_larger(rate, 1e-3 * set->velocity_scale)) : 1;
     c->h = fw_smaller(c->h, set->first_step / p->law.omega * share);
     if (!eb) {
         fw_body *b = &books->world->bodies[ea->index];

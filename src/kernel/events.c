@@ -98,7 +98,7 @@ static fw_status wake(fw_kernel *k, int32_t c, fw_msg *m)
     b->x += t->setup.speed * (t->now - b->t);
     b->t = t->now;
     /* no margin: it leaves this line at once and is listed then */
-    t->seats[j] = (fw_seat){.first = -1, .t = b->t, .x = b->x, .y = b->y, .vx = b->vx, .margin = -1};
+    t->seats[j] = (fw_seat){.first = -1, .t = b->t, .x = b->x, .y = b->y, .vx = b->vx, .margin = -1, .reach = b->radius - 1};
     k->n_seated = w->n_bodies;
     fw_traffic_woken(t, c, j);
     /* What it may push lies where no ice has been made yet: list anew before going on. */

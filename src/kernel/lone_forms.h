@@ -1,4 +1,4 @@
-/* Inside lone.c and lone_keep.c only: where the floe of a step is at any time (lone.c has the equations). */
+/* Inside lone.c, lone_edges.c and lone_keep.c only: where the floe of a step is at any time (lone.c has the equations). */
 #ifndef FW_KERNEL_LONE_FORMS_H
 #define FW_KERNEL_LONE_FORMS_H
 
@@ -122,5 +122,10 @@ static inline void drag_at(double speed, double per_mass, double nx, double ny, 
     double wn = speed * nx + y->rate, wt = -speed * ny - y->along, rate = per_mass * sqrt(wn * wn + wt * wt);
     *out = rate * wn, *along = rate * wt;
 }
+
+/* lone_edges.c. May the force dip below zero and come back? A bound of its decaying part against the force at the start. */
+bool fw_lone_rings(const fw_lone *L, const fw_pair *p);
+/* First edge within the span; INFINITY: none. at: states at start, middle and end. */
+double fw_lone_first_edge(const fw_lone *L, const fw_pair *p, const fw_lone_state *at);
 
 #endif

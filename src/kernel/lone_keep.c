@@ -6,18 +6,23 @@
 #include "geometry/ring.h"
 #include "kernel/lone_forms.h"
 
-enum { PIECE = 5, MAX_CUTS = 40 };
+enum { PIECE = 4, MAX_CUTS = 40 };
+
+/* Lobatto's rule: exact to the fifth power, as Boole's with a point more, and both ends of a piece are known anyway. */
+static const double AT[PIECE] = {0, 0.27639320225002103, 0.72360679774997897, 1};
+static const double WEIGHT[PIECE] = {1.0 / 12, 5.0 / 12, 5.0 / 12, 1.0 / 12};
 
 /* Pieces are short at first and grow with the time since the touch. In 1/w: */
-static const double FIRST_PIECE = 0.35, LONGEST_FRESH = 4;
+static const double FIRST_PIECE = 0.28, LONGEST_FRESH = 4;
 static const double PIECE_GROWTH = 0.6; /* numbers, too: */
 static const double SLIDING = 2;        /* longer by this where no slip decays */
 static const double FRESH =
-    0.1; /* decaying part of depth or slip over the rest: below, one piece follows it to the end */
+    0.3; /* decaying part of depth or slip over the rest: below, one piece follows it to the end */
 
-/* Instants between which the step is smooth enough for polynomials through five points. One of them is the end of the hit, so that what
+/* Instants between which the step is smooth enough for polynomials through four points. One of them is the end of the hit, so that what
  * counts as impact ends there. */
-static int cut_up(const fw_lone *L, const fw_pair *p, double wear_tolerance, double impact_left, double *cut)
+static int cut_up(const fw_lone *L, const fw_pair *p, size_t last, double wear_tolerance, double impact_left,
+                  double *cut)
 {
     double h = L->length, omega = fw_larger(p->law.omega, L->half_damping + sqrt(fw_larger(0, L->split))),
            finer = sqrt(sqrt(wear_tolerance / 2e-4)), fresh = 0, piece = FIRST_PIECE / omega * finer;
@@ -41,12 +46,14 @@ static int cut_up(const fw_lone *L, const fw_pair *p, double wear_tolerance, dou
         cut[n + 1] = is_last ? end : t;
         n++;
     }
+    /* A force that grows from nothing and fades to nothing is none at either end of one piece, and would be no wear. */
+    bool is_hump = L->presses && !(p->normal[0] > 0) && !(p->normal[last] > 0);
+    if (n == 1 && is_hump) cut[1] = 0.5 * h, cut[2] = h, n = 2;
     return n;
 }
 
 void fw_lone_keep(fw_cluster *c, const fw_books *b)
 {
-    static const double WEIGHT[PIECE] = {7.0 / 90, 32.0 / 90, 12.0 / 90, 32.0 / 90, 7.0 / 90}; /* Boole's rule */
     const fw_setup     *set = b->setup;
     const fw_lone      *L = &c->lone;
     fw_member          *m = &c->members[0];
@@ -56,18 +63,21 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
     double              h = L->length, mass = 1 / m->own_inv_mass, omega = p->law.omega, cut[MAX_CUTS];
     double              drag_work = 0, dashpot = 0, friction = 0, jx = 0, jy = 0, load = 0;
     double              impact_left = body->t_hit + 2 / omega - c->t0;
-    int                 n = cut_up(L, p, set->wear_tolerance, impact_left, cut);
+    int                 n = cut_up(L, p, set->method->n_stages - 1, set->wear_tolerance, impact_left, cut);
     bool                wears = L->presses && b->wear->is_open;
-    double              angle = wears ? fw_ring_angle(m->y0[FW_X], m->y0[FW_Y]) : 0;
+    bool                goes_on = p->wear_until == c->t0 && p->since_touch > 0;
+    double              angle = !wears ? 0 : goes_on ? p->wear_angle : fw_ring_angle(m->y0[FW_X], m->y0[FW_Y]);
     fw_wear_interval    iv = {.radius = m->radius, .thickness = body->thickness, .n_stages = PIECE};
     fw_lone_state       y[PIECE];
+    decay               w = {1, 0, 1};
     y[PIECE - 1] = L->from;
-    for (int j = 0; j < PIECE; j++) iv.at[j] = 0.25 * j;
+    for (int j = 0; j < PIECE; j++) iv.at[j] = AT[j];
     for (int k = 0; k < n; k++) {
         double from = cut[k], dt = cut[k + 1] - from;
-        decay  w = decay_at(L, from), step = decay_at(L, 0.25 * dt);
+        decay  outer = decay_at(L, AT[1] * dt), inner = decay_at(L, (AT[2] - AT[1]) * dt);
         y[0] = y[PIECE - 1];
-        for (int j = 1; j < PIECE; j++) w = later(L, w, step), state_at(L, &p->law, from + iv.at[j] * dt, w, &y[j]);
+        for (int j = 1; j < PIECE; j++)
+            w = later(L, w, j == 2 ? inner : outer), state_at(L, &p->law, from + AT[j] * dt, w, &y[j]);
         for (int j = 0; j < PIECE; j++) {
             double weight = WEIGHT[j] * dt;
             if (m->drag_per_mass > 0) {
@@ -95,6 +105,7 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
         fw_wear_collect(b->wear, &iv);
     }
     const fw_lone_state *e = &y[PIECE - 1];
+    if (wears) p->wear_until = c->t1, p->wear_angle = angle - e->turn;
     p->load_tried = load;
     l->drag_work += mass * drag_work, l->dashpot += dashpot, l->friction += friction;
     if (L->presses) {

@@ -61,13 +61,14 @@ static void cubic(double f0, double s0, double f1, double s1, double h, double u
 fw_place fw_path_at(const fw_path *p, double t)
 {
     double dt = t - p->t0;
+    if (dt == 0) return (fw_place){p->x, p->y, p->vx, p->vy};
     switch (p->kind) {
     case FW_PATH_STANDS: return (fw_place){p->x, p->y, 0, 0};
     case FW_PATH_DRIFTS: return (fw_place){p->x + p->vx * dt, p->y, p->vx, 0};
     case FW_PATH_FLIES: {
         if (!(p->K > 0)) return (fw_place){p->x + p->vx * dt, p->y + p->vy * dt, p->vx, p->vy};
         fw_drag_flow f = fw_drag_free(p->K, p->r, dt);
-        double       rx = (p->vx - p->speed) / p->r, ry = p->vy / p->r;
+        double       per_r = 1 / p->r, rx = (p->vx - p->speed) * per_r, ry = p->vy * per_r;
         return (fw_place){p->x + p->speed * dt + rx * f.distance, p->y + ry * f.distance, p->speed + rx * f.speed,
                           ry * f.speed};
     }
@@ -96,17 +97,11 @@ double fw_path_root(double gap0, double rate0, double gap1, double rate1, double
     double c2 = 3 * (gap1 - gap0) - 2 * s0 - s1, c3 = 2 * (gap0 - gap1) + s0 + s1;
     double hi = 1;
     if (gap1 > 0) {
-        /* Both ends open: touch only if the gap dips below zero between, i.e. it closes at first and opens at last. */
-        if (!(s0 < 0 && s1 > 0)) return INFINITY;
-        double lo = 0;
-        for (int n = 0; n < 60 && hi - lo > 1e-12; n++) { /* the slope's root */
-            double u = 0.5 * (lo + hi);
-            if (s0 + u * (2 * c2 + 3 * c3 * u) < 0)
-                lo = u;
-            else
-                hi = u;
-        }
-        if (gap0 + hi * (s0 + hi * (c2 + c3 * hi)) > 0) return INFINITY;
+        /* Both ends open: touch only if the gap's least value between is below zero. Rims that part slowly may be back within h. */
+        double d = c2 * c2 - 3 * c3 * s0;
+        if (!(d > 0)) return INFINITY;
+        hi = c2 < 0 ? (sqrt(d) - c2) / (3 * c3) : -s0 / (sqrt(d) + c2);
+        if (!(hi > 0 && hi < 1) || gap0 + hi * (s0 + hi * (c2 + c3 * hi)) > 0) return INFINITY;
     }
     /* Newton from wherever the bracket is, bisection when it leaves it. */
     double lo = 0, u = gap1 > 0 ? 0.5 * hi : hi * gap0 / (gap0 - gap1);
@@ -145,6 +140,10 @@ static double polish(const fw_path *a, const fw_path *b, double at, double low, 
     return at;
 }
 
+/* Gap over reach below which touches are looked for five times as often: a floe that left the structure at a glance is back after a hump
+ * of some 1e-6, dips in as little and leaves, all within one length otherwise (1 of 20000 random hits: 6 % of its depth). */
+static const double BARELY = 1e-4;
+
 double fw_path_touch(const fw_path *a, const fw_path *b, double from, double until, double gap, double rate)
 {
     /* Speeds are bounded, so a wide gap is skipped by its bound. In the last tenth of reach the ways are nearly
@@ -159,9 +158,9 @@ double fw_path_touch(const fw_path *a, const fw_path *b, double from, double unt
             if (t < until) fw_path_gap(a, b, t, &gap, &rate);
             continue;
         }
-        double h = fw_smaller(until - t, close / bound), gap1, rate1;
+        double h = fw_smaller(until - t, (gap < BARELY * reach ? 0.2 : 1) * close / bound), gap1, rate1;
         fw_path_gap(a, b, t + h, &gap1, &rate1);
-        if (!(gap <= 0 && rate <= 0 && (gap1 > 0 || rate1 <= 0))) { /* just opened: it parts */
+        if (!(gap <= 0 && rate <= 0 && gap1 <= 0 && rate1 <= 0)) { /* just opened: it parts */
             double root = fw_path_root(fw_larger(gap, DBL_MIN), rate, gap1, rate1, h);
             if (root <= h) {
                 double at = polish(a, b, t + root, t, t + h, gap1 <= 0, tiny);

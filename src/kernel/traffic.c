@@ -38,38 +38,43 @@ static void draw_line(fw_traffic *t, int32_t i)
     fw_place at = fw_path_at(&p, t->now);
     double   dt = t->until - t->now;
     s->t = t->now, s->x = at.x, s->y = at.y, s->vx = at.vx, s->vy = at.vy;
-    s->margin = t->setup.margin;
+    s->margin = t->setup.margin, s->reach = p.radius + s->margin;
     if (p.kind != FW_PATH_FLIES || !(dt > 0)) return;
     fw_place end = fw_path_at(&p, t->until);
-    double   r = fw_length(at.vx - p.speed, at.vy);
-    double   way = fw_length(end.x - at.x - p.speed * dt, end.y - at.y);
+    double   r = fw_length(at.vx - p.speed, at.vy), r_end = fw_length(end.vx - p.speed, end.vy);
+    double   mean = fw_length(end.x - at.x - p.speed * dt, end.y - at.y) / dt;
     s->vx = (end.x - at.x) / dt, s->vy = (end.y - at.y) / dt;
-    s->margin = 0;
-    if (p.K > 0 && way > 0) {
-        double mean = way / dt, most = (r / mean - 1) / (p.K * r); /* when the flight is as fast as its chord */
-        s->margin = fw_larger(0, log1p(p.K * r * most) / p.K - mean * most);
-    }
+    /* The way against the water is concave in time: it stays below the tangents at both ends, which meet at this height above the chord. */
+    s->margin = r > r_end ? fw_larger(0, (r - mean) * (mean - r_end) * dt / (r - r_end)) : 0;
+    s->reach = p.radius + s->margin;
 }
 
-/* Least distance of two points on lines, apart by (x, y) now and moving by (u, v), within dt; squared. */
-static double nearest2(double x, double y, double u, double v, double dt)
+/* Do two points on lines, apart by (x, y) now and moving by (u, v), come nearer than limit within dt? Most that are asked about are far
+ * apart along one axis. */
+static inline bool is_near(double x, double y, double u, double v, double dt, double limit)
 {
+    if (fabs(x) >= limit + fabs(u) * dt || fabs(y) >= limit + fabs(v) * dt) return false;
     double w2 = u * u + v * v, s = w2 > 0 ? -(x * u + y * v) / w2 : 0;
     s = s > 0 ? fw_smaller(s, dt) : 0;
     x += s * u, y += s * v;
-    return x * x + y * y;
+    return x * x + y * y < limit * limit;
 }
 
-static double line_x(const fw_traffic *t, const fw_seat *s) { return s->x + s->vx * (t->now - s->t); }
-static double line_y(const fw_traffic *t, const fw_seat *s) { return s->y + s->vy * (t->now - s->t); }
+/* Where body i's line is now. */
+typedef struct disc {
+    double x, y, vx, vy, reach;
+} disc;
 
-static bool lines_meet(const fw_traffic *t, int32_t i, int32_t j)
+static inline disc disc_of(const fw_traffic *t, int32_t i)
 {
-    const fw_seat *a = &t->seats[i], *b = &t->seats[j];
-    const fw_body *bodies = t->world->bodies;
-    double         limit = bodies[i].radius + bodies[j].radius + a->margin + b->margin;
-    return nearest2(line_x(t, a) - line_x(t, b), line_y(t, a) - line_y(t, b), a->vx - b->vx, a->vy - b->vy,
-                    t->until - t->now) < limit * limit;
+    const fw_seat *s = &t->seats[i];
+    double         dt = t->now - s->t;
+    return (disc){s->x + s->vx * dt, s->y + s->vy * dt, s->vx, s->vy, s->reach};
+}
+
+static inline bool lines_meet(const disc *a, const disc *b, double dt)
+{
+    return is_near(a->x - b->x, a->y - b->y, a->vx - b->vx, a->vy - b->vy, dt, a->reach + b->reach);
 }
 
 /* --- candidates ------------------------------------------------------------------------------------------------------ */
@@ -116,17 +121,15 @@ static bool has_ice(const fw_traffic *t, int32_t i, int32_t block, int32_t row)
     return false;
 }
 
-/* Untouched floes that come within reach of a disc (x, y, radius) that moves by (vx, vy); found in the frame of the ice, where they
- * stand still. i = FW_WALL: each of them becomes awake, since a candidate needs a body. */
-static fw_status add_ice(fw_traffic *t, int32_t i, double x, double y, double vx, double vy, double radius, bool is_new,
-                         fw_msg *m)
+/* Untouched floes that come within reach of body i on its line; found in the frame of the ice, where they stand still. */
+static fw_status add_ice(fw_traffic *t, int32_t i, const disc *a, bool is_new, fw_msg *m)
 {
     const fw_world *w = t->world;
-    double dt = t->until - t->now, u = vx - t->setup.speed, drift = w->drift + t->setup.speed * (t->now - w->t);
-    double X = x - drift, cx = X + 0.5 * u * dt, cy = y + 0.5 * vy * dt, half = 0.5 * dt * fw_larger(fabs(u), fabs(vy));
+    double dt = t->until - t->now, u = a->vx - t->setup.speed, X = a->x - (w->drift + t->setup.speed * (t->now - w->t));
+    double cx = X + 0.5 * u * dt, cy = a->y + 0.5 * a->vy * dt, half = 0.5 * dt * fw_larger(fabs(u), fabs(a->vy));
     for (size_t k = 0; k < w->n_blocks; k++) {
         const fw_block *b = &w->blocks[k];
-        double          reach = half + radius + b->max_radius;
+        double          reach = half + a->reach + b->max_radius;
         if (b->n_left == 0 || cx + reach < b->x_min || cx - reach > b->x_max) continue;
         size_t ix0, ix1, iy0, iy1;
         fw_cells_range(&b->cells, cx, cy, reach, &ix0, &ix1, &iy0, &iy1);
@@ -134,8 +137,7 @@ static fw_status add_ice(fw_traffic *t, int32_t i, double x, double y, double vx
             for (size_t q = b->cells.start[iy * b->cells.nx + ix0];
                  ix0 < ix1 && q < b->cells.start[iy * b->cells.nx + ix1]; q++) {
                 size_t r = b->cells.item[q];
-                double limit = radius + b->radius[r];
-                if (b->is_taken[r] || nearest2(X - b->x[r], y - b->y[r], u, vy, dt) >= limit * limit ||
+                if (b->is_taken[r] || !is_near(X - b->x[r], a->y - b->y[r], u, a->vy, dt, a->reach + b->radius[r]) ||
                     fabs(b->y[r]) > t->setup.half_width)
                     continue;
                 if (is_new || !has_ice(t, i, (int32_t)k, (int32_t)r))
@@ -147,13 +149,11 @@ static fw_status add_ice(fw_traffic *t, int32_t i, double x, double y, double vx
 
 static fw_status add_structure_and_ice(fw_traffic *t, int32_t i, bool is_new, fw_msg *m)
 {
-    const fw_seat *s = &t->seats[i];
-    double         r = t->world->bodies[i].radius + s->margin, x = line_x(t, s), y = line_y(t, s);
-    double         limit = r + t->setup.structure_radius;
-    if (nearest2(x, y, s->vx, s->vy, t->until - t->now) < limit * limit &&
+    disc a = disc_of(t, i);
+    if (is_near(a.x, a.y, a.vx, a.vy, t->until - t->now, a.reach + t->setup.structure_radius) &&
         (is_new || fw_traffic_find(t, i, FW_WALL) < 0))
         FW_TRY(add(t, i, FW_WALL, -1, -1, m));
-    return t->setup.has_floe_contact ? add_ice(t, i, x, y, s->vx, s->vy, r, is_new, m) : FW_OK;
+    return t->setup.has_floe_contact ? add_ice(t, i, &a, is_new, m) : FW_OK;
 }
 
 static int by_left_edge(const void *x, const void *y)
@@ -191,7 +191,7 @@ fw_status fw_traffic_list(fw_traffic *t, fw_msg *m)
     for (size_t i = 0; i < n; i++) {
         draw_line(t, (int32_t)i);
         fw_seat *s = &t->seats[i];
-        double   r = w->bodies[i].radius + s->margin;
+        double   r = s->reach;
         s->first = -1;
         t->edges[i] = (struct fw_edge){fw_smaller(s->x, s->x + s->vx * dt) - r, fw_larger(s->x, s->x + s->vx * dt) + r,
                                        (int32_t)i};
@@ -200,7 +200,8 @@ fw_status fw_traffic_list(fw_traffic *t, fw_msg *m)
     for (size_t a = 0; t->setup.has_floe_contact && a < n; a++)
         for (size_t b = a + 1; b < n && t->edges[b].left < t->edges[a].right; b++) {
             int32_t i = t->edges[a].body, j = t->edges[b].body;
-            if (lines_meet(t, i, j)) FW_TRY(add(t, i < j ? i : j, i < j ? j : i, -1, -1, m));
+            disc    p = disc_of(t, i), q = disc_of(t, j);
+            if (lines_meet(&p, &q, dt)) FW_TRY(add(t, i < j ? i : j, i < j ? j : i, -1, -1, m));
         }
     for (size_t i = 0; i < n; i++) FW_TRY(add_structure_and_ice(t, (int32_t)i, true, m));
     return FW_OK;
@@ -209,9 +210,13 @@ fw_status fw_traffic_list(fw_traffic *t, fw_msg *m)
 fw_status fw_traffic_list_body(fw_traffic *t, int32_t i, fw_msg *m)
 {
     draw_line(t, i);
-    for (size_t j = 0; t->setup.has_floe_contact && j < t->world->n_bodies; j++)
-        if ((int32_t)j != i && lines_meet(t, i, (int32_t)j) && fw_traffic_find(t, i, (int32_t)j) < 0)
+    disc   a = disc_of(t, i);
+    double dt = t->until - t->now;
+    for (size_t j = 0; t->setup.has_floe_contact && j < t->world->n_bodies; j++) {
+        disc b = disc_of(t, (int32_t)j);
+        if (lines_meet(&a, &b, dt) && (int32_t)j != i && fw_traffic_find(t, i, (int32_t)j) < 0)
             FW_TRY(add(t, i, (int32_t)j, -1, -1, m));
+    }
     return add_structure_and_ice(t, i, false, m);
 }
 

@@ -26,7 +26,8 @@ typedef struct fw_seat {
     fw_cluster *cluster; /* NULL: in no contact */
     int32_t     member;
     int32_t     first; /* candidate */
-    double      t, x, y, vx, vy, margin;
+    double      t, x, y, vx, vy; /* the line: where it was at t */
+    double      margin, reach;   /* how far it may leave it; with its radius */
 } fw_seat;
 
 typedef struct fw_traffic {

@@ -89,20 +89,40 @@ static void speed_cubed(void **state)
     assert_true(exponent > 2.7 && exponent < 3.4);
 }
 
-/* accuracy: at 40 % a window's depth at 10, 1 and 0.1 % agrees within the targets, on the same ice. */
-static void accuracy_of_a_window(void **state)
+/* Depths of n windows at an accuracy against 0.01 %, 600 s at 2 m/s on the same ice: mean difference, its standard error, r.m.s., all
+ * relative to the mean depth. */
+static void differences(double concentration, size_t n, double accuracy, double to, double *mean, double *error, double *rms)
+{
+    double sum = 0, diff[64], first = 0, second = 0;
+    for (size_t id = 0; id < n; id++) {
+        fw_record a = realise(concentration, 2, 600, accuracy, id), b = realise(concentration, 2, 600, to, id);
+        diff[id] = depth_75(&a) - depth_75(&b);
+        sum += depth_75(&b) / (double)n;
+        fw_record_free(&a), fw_record_free(&b);
+    }
+    for (size_t i = 0; i < n; i++) first += diff[i] / (double)n, second += diff[i] * diff[i] / (double)n;
+    *mean = first / sum, *rms = sqrt(second) / sum;
+    *error = sqrt((second - first * first) / (double)(n - 1)) / sum;
+    print_message("%g %% ice, accuracy %g %%: %+.3g +- %.2g %%, r.m.s. of single windows %.2g %%\n", 100 * concentration,
+                  100 * accuracy, 100 * *mean, 100 * *error, 100 * *rms);
+}
+
+/* accuracy binds for windows: at 10 % ice down to 0.1 %; at 40 %, where two runs that differ in the last digit are two other courses
+ * of events after a minute, 10 and 1 % in the mean over windows (more of them: tests/validation). */
+static void accuracy_of_windows(void **state)
 {
     (void)state;
-    double d[3] = {0};
-    for (uint64_t id = 0; id < 4; id++)
-        for (int a = 0; a < 3; a++) {
-            fw_record r = realise(0.4, 2, 300, (const double[]){0.1, 0.01, 0.001}[a], id);
-            d[a] += depth_75(&r);
-            fw_record_free(&r);
-        }
-    print_message("depth at 10, 1, 0.1 %%: %.6g %.6g %.6g mm\n", d[0], d[1], d[2]);
-    CHECK_RELATIVE(d[0], d[2], 0.1);
-    CHECK_RELATIVE(d[1], d[2], 0.01);
+    double mean, error, rms;
+    for (int a = 1; a <= 3; a++) {
+        double accuracy = pow(10, -a);
+        differences(0.1, 24, accuracy, 1e-4, &mean, &error, &rms);
+        assert_true(fabs(mean) + 2 * error <= accuracy && rms <= 1.5 * accuracy);
+    }
+    for (int a = 1; a <= 2; a++) {
+        double accuracy = pow(10, -a);
+        differences(0.4, 48, accuracy, 1e-3, &mean, &error, &rms);
+        assert_true(fabs(mean) <= accuracy + 2 * error);
+    }
 }
 
 static fw_status stop_now(void *self, double done)
@@ -134,6 +154,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(is_a_pure_function),   cmocka_unit_test(papers_example),
                                        cmocka_unit_test(three_hours),          cmocka_unit_test(speed_cubed),
-                                       cmocka_unit_test(accuracy_of_a_window), cmocka_unit_test(stops_and_refuses)};
+                                       cmocka_unit_test(accuracy_of_windows), cmocka_unit_test(stops_and_refuses)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
