@@ -168,7 +168,7 @@ static double attempt(fw_cluster *c, const fw_books *books, double h)
         for (size_t s = 0; s <= last; s++)
             for (int q = 0; q < 4; q++) e[q] += me->e[s] * m->k[s][FW_VX + q];
         double err = h * fw_larger(fw_length(e[0], e[1]), m->radius * fabs(e[2]));
-        if (!(err <= worst)) worst = err; /* keeps NaN */
+        worst = err <= worst ? worst : err; /* keeps NaN */
         m->fastest = fw_member_fastest(m, set->speed, inv);
     }
     worst /= set->tolerance * set->velocity_scale;

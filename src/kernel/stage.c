@@ -19,10 +19,10 @@ static inline double relative_speed(const fw_setup *s, double vx, double vy)
 /* Normal and overlap of two discs whose centres are (dx, dy) apart. */
 static inline void geometry(double dx, double dy, double reach, double *nx, double *ny, double *depth)
 {
-    double r2 = dx * dx + dy * dy, r = sqrt(r2), inv = 1 / r;
-    if (!(r > 0)) dx = -1, dy = 0, inv = 1; /* one centre on the other: any direction will do */
+    double r2 = dx * dx + dy * dy, r = sqrt(r2), sum = reach + r, both = 1 / (r * sum), inv = sum * both; /* one division for two */
+    *depth = (reach * reach - r2) * (r * both); /* reach - r without cancellation */
+    if (!(r > 0)) dx = -1, dy = 0, inv = 1, *depth = reach; /* one centre on the other: any direction will do */
     *nx = dx * inv, *ny = dy * inv;
-    *depth = (reach * reach - r2) / (reach + r); /* reach - r without cancellation */
 }
 
 /* Closing rate and slip of a pair for velocities va and vb, (x, y, spin). */
@@ -98,7 +98,7 @@ static inline void free_velocity(const fw_setup *set, fw_member *m, double hg, d
     m->inv_mass = m->own_inv_mass * f;
 }
 
-static void predict(fw_cluster *c, const fw_setup *set, size_t s, double h)
+static inline __attribute__((always_inline)) void predict_stage(fw_cluster *c, const fw_setup *set, size_t s, double h)
 {
     const fw_method *me = set->method;
     double           hg = h * me->gamma, ahead = (me->c[s] - me->c[s - 1]) * h, ha[FW_MAX_STAGES];
@@ -114,6 +114,17 @@ static void predict(fw_cluster *c, const fw_setup *set, size_t s, double h)
         m->X = r[FW_X] + hg * m->U[0], m->Y = r[FW_Y] + hg * m->U[1];
         free_velocity(set, m, hg, relative_speed(set, m->U[0], m->U[1]));
         m->V[2] = r[FW_SPIN];
+    }
+}
+
+/* Loops of two and three that are known beforehand. */
+static void predict(fw_cluster *c, const fw_setup *set, size_t s, double h)
+{
+    switch (s) {
+    case 1: predict_stage(c, set, 1, h); break;
+    case 2: predict_stage(c, set, 2, h); break;
+    case 3: predict_stage(c, set, 3, h); break;
+    default: predict_stage(c, set, s, h);
     }
 }
 
@@ -135,7 +146,8 @@ static void linearise(fw_cluster *c, size_t s, double hg)
         p->rate_star = closing(p, a->U, b->U);
         p->alpha = p->law.k * (p->depth_star - hg * p->rate_star);
         p->beta = p->law.c + p->law.k * hg;
-        if (p->depth_star < 0 && !(p->normal[0] > 0)) p->alpha = p->beta = 0; /* parted, and not touched again yet */
+        double is_on = (p->depth_star < 0) & !(p->normal[0] > 0) ? 0 : 1; /* 0: parted, and not touched again yet */
+        p->alpha *= is_on, p->beta *= is_on;
         p->w_normal = a->inv_mass + b->inv_mass;
         p->w_slip = p->w_normal + a->radius * a->turn + b->radius * b->turn;
         prepare(p, hg);
@@ -154,9 +166,9 @@ static double sweep(fw_cluster *c)
         double   free = closing(p, p->ma->V, p->mb->V) + p->push * p->w_normal;
         double   slip = slipping(p, p->ma->V, p->mb->V) - p->rub * p->w_slip;
         double   push = (p->alpha + p->beta * free) * p->to_push, rub = slip * p->to_rub;
-        push = push > 0 ? push : 0;
+        push = fw_larger(0, push);
         double cap = p->mu * push;
-        rub = rub > cap ? cap : rub < -cap ? -cap : rub;
+        rub = fw_larger(-cap, fw_smaller(cap, rub)); /* no branches: which side binds changes from pair to pair */
         double dp = push - p->push, dr = rub - p->rub;
         shove(p, dp, dr);
         p->push = push, p->rub = rub;

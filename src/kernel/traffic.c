@@ -10,6 +10,7 @@ void fw_traffic_free(fw_traffic *t)
     free(t->candidates);
     free(t->seats);
     free(t->edges);
+    free(t->some);
 }
 
 fw_path fw_traffic_path(const fw_traffic *t, int32_t body)
@@ -49,11 +50,15 @@ static void draw_line(fw_traffic *t, int32_t i)
     s->reach = p.radius + s->margin;
 }
 
-/* Do two points on lines, apart by (x, y) now and moving by (u, v), come nearer than limit within dt? Most that are asked about are far
- * apart along one axis. */
+/* Do two points on lines, apart by (x, y) now and moving by (u, v), come nearer than limit within dt? First along either axis, without a
+ * branch: most that are asked about do not, and which of them do cannot be foreseen. */
+static inline bool is_in_box(double x, double y, double u, double v, double dt, double limit)
+{
+    return (fabs(x) < limit + fabs(u) * dt) & (fabs(y) < limit + fabs(v) * dt);
+}
+
 static inline bool is_near(double x, double y, double u, double v, double dt, double limit)
 {
-    if (fabs(x) >= limit + fabs(u) * dt || fabs(y) >= limit + fabs(v) * dt) return false;
     double w2 = u * u + v * v, s = w2 > 0 ? -(x * u + y * v) / w2 : 0;
     s = s > 0 ? fw_smaller(s, dt) : 0;
     x += s * u, y += s * v;
@@ -70,6 +75,11 @@ static inline disc disc_of(const fw_traffic *t, int32_t i)
     const fw_seat *s = &t->seats[i];
     double         dt = t->now - s->t;
     return (disc){s->x + s->vx * dt, s->y + s->vy * dt, s->vx, s->vy, s->reach};
+}
+
+static inline bool boxes_meet(const disc *a, const disc *b, double dt)
+{
+    return is_in_box(a->x - b->x, a->y - b->y, a->vx - b->vx, a->vy - b->vy, dt, a->reach + b->reach);
 }
 
 static inline bool lines_meet(const disc *a, const disc *b, double dt)
@@ -133,16 +143,22 @@ static fw_status add_ice(fw_traffic *t, int32_t i, const disc *a, bool is_new, f
         if (b->n_left == 0 || cx + reach < b->x_min || cx - reach > b->x_max) continue;
         size_t ix0, ix1, iy0, iy1;
         fw_cells_range(&b->cells, cx, cy, reach, &ix0, &ix1, &iy0, &iy1);
-        for (size_t iy = iy0; iy < iy1; iy++)
-            for (size_t q = b->cells.start[iy * b->cells.nx + ix0];
-                 ix0 < ix1 && q < b->cells.start[iy * b->cells.nx + ix1]; q++) {
+        FW_TRY(fw_grow(&t->some, &t->some_capacity, b->n + 1, sizeof *t->some, "candidates", m));
+        int32_t *some = t->some;
+        size_t   n = 0;
+        for (size_t iy = iy0; iy < iy1 && ix0 < ix1; iy++)
+            for (size_t q = b->cells.start[iy * b->cells.nx + ix0]; q < b->cells.start[iy * b->cells.nx + ix1]; q++) {
                 size_t r = b->cells.item[q];
-                if (b->is_taken[r] || !is_near(X - b->x[r], a->y - b->y[r], u, a->vy, dt, a->reach + b->radius[r]) ||
-                    fabs(b->y[r]) > t->setup.half_width)
-                    continue;
-                if (is_new || !has_ice(t, i, (int32_t)k, (int32_t)r))
-                    FW_TRY(add(t, i, FW_ICE, (int32_t)k, (int32_t)r, m));
+                some[n] = (int32_t)r;
+                n += !b->is_taken[r] & (fabs(b->y[r]) <= t->setup.half_width) &
+                     is_in_box(X - b->x[r], a->y - b->y[r], u, a->vy, dt, a->reach + b->radius[r]);
             }
+        for (size_t q = 0; q < n; q++) {
+            int32_t r = some[q];
+            if (is_near(X - b->x[r], a->y - b->y[r], u, a->vy, dt, a->reach + b->radius[r]) &&
+                (is_new || !has_ice(t, i, (int32_t)k, r)))
+                FW_TRY(add(t, i, FW_ICE, (int32_t)k, r, m));
+        }
     }
     return FW_OK;
 }
@@ -201,7 +217,7 @@ fw_status fw_traffic_list(fw_traffic *t, fw_msg *m)
         for (size_t b = a + 1; b < n && t->edges[b].left < t->edges[a].right; b++) {
             int32_t i = t->edges[a].body, j = t->edges[b].body;
             disc    p = disc_of(t, i), q = disc_of(t, j);
-            if (lines_meet(&p, &q, dt)) FW_TRY(add(t, i < j ? i : j, i < j ? j : i, -1, -1, m));
+            if (boxes_meet(&p, &q, dt) && lines_meet(&p, &q, dt)) FW_TRY(add(t, i < j ? i : j, i < j ? j : i, -1, -1, m));
         }
     for (size_t i = 0; i < n; i++) FW_TRY(add_structure_and_ice(t, (int32_t)i, true, m));
     return FW_OK;
@@ -212,10 +228,17 @@ fw_status fw_traffic_list_body(fw_traffic *t, int32_t i, fw_msg *m)
     draw_line(t, i);
     disc   a = disc_of(t, i);
     double dt = t->until - t->now;
-    for (size_t j = 0; t->setup.has_floe_contact && j < t->world->n_bodies; j++) {
-        disc b = disc_of(t, (int32_t)j);
-        if (lines_meet(&a, &b, dt) && (int32_t)j != i && fw_traffic_find(t, i, (int32_t)j) < 0)
-            FW_TRY(add(t, i, (int32_t)j, -1, -1, m));
+    size_t n = 0, n_bodies = t->setup.has_floe_contact ? t->world->n_bodies : 0;
+    FW_TRY(fw_grow(&t->some, &t->some_capacity, n_bodies + 1, sizeof *t->some, "candidates", m));
+    int32_t *some = t->some;
+    for (int32_t j = 0; j < (int32_t)n_bodies; j++) {
+        disc b = disc_of(t, j);
+        some[n] = j;
+        n += (j != i) & boxes_meet(&a, &b, dt);
+    }
+    for (size_t q = 0; q < n; q++) {
+        disc b = disc_of(t, some[q]);
+        if (lines_meet(&a, &b, dt) && fw_traffic_find(t, i, some[q]) < 0) FW_TRY(add(t, i, some[q], -1, -1, m));
     }
     return add_structure_and_ice(t, i, false, m);
 }

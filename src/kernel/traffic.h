@@ -46,7 +46,9 @@ typedef struct fw_traffic {
         double  left, right;
         int32_t body;
     } * edges;
-    size_t  edge_capacity;
+    size_t   edge_capacity;
+    int32_t *some; /* workspace: bodies or rows of ice that may be near */
+    size_t   some_capacity;
     int32_t soonest; /* candidate with the earliest touch; -1: none; */
     bool    is_soonest_known;
 } fw_traffic;
