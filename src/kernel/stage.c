@@ -157,24 +157,33 @@ static void linearise(fw_cluster *c, size_t s, double hg)
     }
 }
 
-/* One sweep; returns the largest change of a velocity. */
+/* One contact solved as if there were no other; returns the change of its velocities. */
+static inline double solve_contact(fw_pair *p)
+{
+    double free = closing(p, p->ma->V, p->mb->V) + p->push * p->w_normal;
+    double slip = slipping(p, p->ma->V, p->mb->V) - p->rub * p->w_slip;
+    double push = fw_larger(0, (p->alpha + p->beta * free) * p->to_push), cap = p->mu * push;
+    double rub = fw_larger(-cap, fw_smaller(cap, slip * p->to_rub)); /* no branches: which side binds changes from pair to pair */
+    double dp = push - p->push, dr = rub - p->rub;
+    shove(p, dp, dr);
+    p->push = push, p->rub = rub;
+    return fw_larger(fabs(dp) * p->w_normal, fabs(dr) * p->w_slip);
+}
+
+/* Returns the largest change of a velocity. */
 static double sweep(fw_cluster *c)
 {
     double largest = 0;
-    for (size_t k = 0; k < c->n_pairs; k++) {
-        fw_pair *p = &c->pairs[k];
-        double   free = closing(p, p->ma->V, p->mb->V) + p->push * p->w_normal;
-        double   slip = slipping(p, p->ma->V, p->mb->V) - p->rub * p->w_slip;
-        double   push = (p->alpha + p->beta * free) * p->to_push, rub = slip * p->to_rub;
-        push = fw_larger(0, push);
-        double cap = p->mu * push;
-        rub = fw_larger(-cap, fw_smaller(cap, rub)); /* no branches: which side binds changes from pair to pair */
-        double dp = push - p->push, dr = rub - p->rub;
-        shove(p, dp, dr);
-        p->push = push, p->rub = rub;
-        largest = fw_larger(largest, fw_larger(fabs(dp) * p->w_normal, fabs(dr) * p->w_slip));
-    }
+    for (size_t k = 0; k < c->n_pairs; k++) largest = fw_larger(largest, solve_contact(&c->pairs[k]));
     return largest;
+}
+
+/* What the sweeps leave goes to contacts between floes, none to those with the structure: the slip of a floe that rolls is a few mm/s, wear goes with
+ * its size, and what is left in it adds up whatever its sign (+1.0 % of depth in 1000 windows at 30 % ice, 0.5 m/s, accuracy 1 %; so 0.0 %). */
+static void settle_structure(fw_cluster *c)
+{
+    for (size_t k = 0; k < c->n_pairs; k++)
+        if (c->pairs[k].b == FW_WALL) solve_contact(&c->pairs[k]);
 }
 
 /* Drag follows the solved velocity; impulses stay. Returns the largest change of a velocity that was worth it. */
@@ -221,6 +230,7 @@ void fw_stage_solve(fw_cluster *c, const fw_books *books, size_t s, double h)
         double drag = set->has_drag ? renew_drag(c, set, hg, enough) : 0;
         if (!(drag > 0) && (change < enough || is_lone)) break;
     }
+    if (!is_lone) settle_structure(c);
     for (size_t i = 0; i < c->n_members; i++) {
         fw_member *m = &c->members[i];
         for (int q = 0; q < 4; q++) m->k[s][q] = m->V[q], m->k[s][4 + q] = (m->V[q] - m->r[4 + q]) * inv;
