@@ -111,7 +111,8 @@ def chosen_text(steps, row):
 def coupled_text(summary):
     known = f"reference: finest events level, within {100.0 * summary['reference_hit_error']:.1g} % of independent solutions of single hits"
     jams = int(summary["n_windows"] - summary["n_coupled"])
-    return known if jams == 0 else f"{known}; {jams} windows in a jam, where only means compare, left out"
+    windows = f"{jams} window" if jams == 1 else f"{jams} windows"
+    return known if jams == 0 else f"{known}; {windows} in a jam, where only means compare, left out"
 
 
 def draw_budget(study):
