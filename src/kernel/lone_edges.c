@@ -1,7 +1,7 @@
 /* Where in a step another form begins to hold: roots of the closed forms of lone.c. */
 #include "kernel/lone_forms.h"
 
-static const double WATCH = 0.5;   /* how often a force that may dip below zero is looked at [1/w], */
+static const double WATCH = 0.8;   /* how often a force that may dip below zero is looked at [1/w], */
 static const double RINGING = 0.2; /* which is one of which this share has to decay yet */
 
 /* How far inside its form the floe is [N]: negative past the edge. i = 0: force or none; 1: friction, or parting. */
