@@ -8,6 +8,10 @@
 #include "floewear/scenario.h"
 #include "floewear/status.h"
 
+/* The records of a campaign are those of one generation of the program. Raised by every change that gives a realisation other numbers, and part
+ * of what a campaign's hash stands for: runs begun by another generation are refused, not mixed. 2: accuracy levels of November 2026. */
+enum { FW_RECORD_GENERATION = 2 };
+
 /* Scalar columns: C type tag, name (also the HDF5 dataset and journal order), unit (UDUNITS), long name.
  * One list, so that packing, HDF5, documentation and comparison cannot drift apart. */
 #define FW_RECORD_LIST(X)                                                                                              \

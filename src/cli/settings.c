@@ -157,6 +157,7 @@ fw_status fw_settings_make(fw_campaign *c, const fw_values *v, fw_msg *m)
 {
     text t = {NULL, 0, 0, FW_OK, m};
 
+    put(&t, "records of generation = %d\n", FW_RECORD_GENERATION);
     put_key(&t, &fw_table_campaign, "seed", v);
     put_key(&t, &fw_table_campaign, "accuracy", v);
     put_key(&t, &fw_table_structure, "diameter", v);

@@ -8,7 +8,7 @@
 /* "key = value unit\n" lines in a fixed order, numbers with %.17g in the key table's units, into c->settings
  * (owned), and their FNV-1a 64 into c->hash.
  *
- * In:  structure.diameter, ice, current, contact, water, effects, the laws' exponents, exposure, field, ring,
+ * In:  the generation of the program's records, structure.diameter, ice, current, contact, water, effects, the laws' exponents, exposure, field, ring,
  *      numerics as far as they are given, accuracy, seed. Out: what enters after the runs (measuring points, temperature, direction of single laws,
  *      coefficients, precision, service) and names. A joint table counts whole, directions too, because its cells
  *      are numbered. */

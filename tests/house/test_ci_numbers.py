@@ -4,12 +4,14 @@ usage: test_ci_numbers.py FLOEWEAR SOURCE_FOLDER WORK_FOLDER [--update]
 
 The numbers are floewear's own, kept so that a change of results is seen and said. Bits are promised on one machine type
 only: six digits on x86-64 (builds with -O1 and -O3 -march=native agree to nine), three elsewhere. A commit that changes
-them on purpose runs this with --update and says why.
+them on purpose raises FW_RECORD_GENERATION (include/floewear/record.h), so that no campaign mixes records of both, runs this with
+--update and says why.
 """
 import json
 import os
 import pathlib
 import platform
+import re
 import subprocess
 import sys
 
@@ -44,16 +46,23 @@ def main():
     floewear, source, work = (pathlib.Path(a).resolve() for a in sys.argv[1:4])
     work.mkdir(parents=True, exist_ok=True)
     kept = source / "tests/house/ci_numbers.json"
+    header = (source / "include/floewear/record.h").read_text(encoding="utf-8")
+    generation = int(re.search(r"FW_RECORD_GENERATION = (\d+)", header)[1])
+    wanted = json.loads(kept.read_text(encoding="utf-8"))
     one = numbers(floewear, source / "campaigns/ci.yaml", work / "one", 1)
     if sys.argv[4:] == ["--update"]:
         tables = ",\n".join(f' "{t}": [\n  ' + ",\n  ".join(json.dumps(row) for row in one[t]) + "\n ]" for t in KEYS)
-        kept.write_text(f'{{"n": {one["n"]}, "failed": {one["failed"]},\n{tables}}}\n', encoding="utf-8")
+        has_changed = any(True for t in KEYS for _ in differences(t, one[t], wanted[t]))
+        if has_changed and wanted.get("generation") == generation:
+            sys.exit(f"other numbers, but still generation {generation}: raise FW_RECORD_GENERATION in {source}/include/floewear/record.h")
+        kept.write_text(f'{{"generation": {generation}, "n": {one["n"]}, "failed": {one["failed"]},\n{tables}}}\n', encoding="utf-8")
         return
     complaints = []
     two = numbers(floewear, source / "campaigns/ci.yaml", work / "two", 2)
     if one != two:
         complaints.append("one rank and two ranks give different bits")
-    wanted = json.loads(kept.read_text(encoding="utf-8"))
+    if wanted.get("generation") != generation:
+        complaints.append(f"numbers of generation {wanted.get('generation')}, records of generation {generation}: run with --update")
     if (one["n"], one["failed"]) != (wanted["n"], wanted["failed"]):
         complaints.append(f"{one['n']} realisations, {one['failed']} failed; wanted {wanted['n']}, {wanted['failed']}")
     for table in KEYS:
