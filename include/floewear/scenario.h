@@ -55,6 +55,9 @@ typedef struct fw_abrasion_law {
 /* Factor that turns a law's wear load [MPa^m km] into depth [mm] at temperature T [degC]. */
 double fw_abrasion_rate(const fw_abrasion_law *law, double temperature);
 
+/* Densest ice that is made: the size laws of unbreakable floes pack to this without overlap, equal floes of the largest kind to 0.75. */
+#define FW_MAX_CONCENTRATION 0.8
+
 /* How a window is computed. Zeros stand for what a user gets: the event-driven kernel with the settings that
  * realisation/accuracy.c chooses for fw_model.accuracy. Everything else is there to measure that choice against. */
 typedef enum fw_scheme {

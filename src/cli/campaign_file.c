@@ -91,10 +91,10 @@ static fw_status read_concentration(const fw_reader *r, const fw_node *n, fw_dis
     if (!(low >= 0) || (low == 0 && fw_distribution_cdf(out, 0) > 0)) {
         return fw_yaml_fail(n, r->m, "ice.concentration reaches down to %g %%, wanted more than 0 %%", 100 * low);
     }
-    if (!(high <= 0.65)) {
+    if (!(high <= FW_MAX_CONCENTRATION)) {
         return fw_yaml_fail(
-            n, r->m, "ice.concentration reaches up to %g %%, wanted at most 65 %%: this version packs no denser ice%s",
-            100 * high, isinf(high) ? " (give max)" : "");
+            n, r->m, "ice.concentration reaches up to %g %%, wanted at most %g %%: whole floes pack no denser%s",
+            100 * high, 100 * FW_MAX_CONCENTRATION, isinf(high) ? " (give max)" : "");
     }
     return FW_OK;
 }

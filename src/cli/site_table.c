@@ -24,8 +24,8 @@ static fw_status check_row(const fw_csv *t, size_t i, fw_msg *m)
              row[which], unit, wanted)
     CHECK_ROW(row[SPEED] > 0 && row[SPEED] <= 20, SPEED, " m/s", "more than 0 m/s and at most 20 m/s");
     CHECK_ROW(fabs(row[DIRECTION]) <= 720, DIRECTION, " deg", "-720 deg to 720 deg");
-    CHECK_ROW(row[CONCENTRATION] > 0 && row[CONCENTRATION] <= 0.65, CONCENTRATION, "",
-              "more than 0 and at most 0.65: this version packs no denser ice");
+    CHECK_ROW(row[CONCENTRATION] > 0 && row[CONCENTRATION] <= FW_MAX_CONCENTRATION, CONCENTRATION, "",
+              "more than 0 and at most 0.8: whole floes pack no denser");
     CHECK_ROW(!t->has[THICKNESS] || fw_unbreakable_class_exists(row[THICKNESS]), THICKNESS, " m", "0.0855 m to 8.04 m");
     CHECK_ROW(row[PROBABILITY] >= 0 && row[PROBABILITY] <= 1, PROBABILITY, "", "0 to 1");
 #undef CHECK_ROW

@@ -115,7 +115,7 @@ static const fw_key ICE[] = {
     SHAPED("thickness_mixes", "[{probability: 1, classes: {0.5 m: 1, 0.7 m: 1, 0.9 m: 1, 1.1 m: 1, 1.3 m: 1}}]",
            "list of {probability, classes, by}", "mixes of thickness; a realisation draws one"),
     SHAPED("floe_diameter", "{distribution: uniform}", "map", "law of the diameter inside [4h, sqrt(130h - 11)]"),
-    SHAPED("concentration", "", "distribution", "share of the water that ice covers, more than 0 and at most 65 %"),
+    SHAPED("concentration", "", "distribution", "share of the water that ice covers, more than 0 and at most 80 %"),
 };
 SECTION(fw_table_ice, "ice", "ice and its statistics", ICE);
 

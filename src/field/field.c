@@ -38,7 +38,6 @@
 enum { N_LEVELS = 8 };
 static const double  TILE_LENGTH = 100.0;      /* [m] */
 static const double  DIAMETERS_PER_TILE = 7.5; /* a tile is at least this many of the largest diameter long */
-static const double  MAX_CONCENTRATION = 0.65;
 static const int64_t MAX_INDEX = 1 << 20; /* of a column or row: 1e8 m, where doubles still resolve 1.5e-8 m */
 
 /* A tile, finished at level N_LEVELS. Coordinates of floes beyond end[level] are not set yet. */
@@ -74,8 +73,8 @@ fw_status fw_field_create(fw_field **out, const fw_field_settings *s, fw_msg *m)
 {
     fw_sizes sizes;
     *out = NULL;
-    FW_CHECK(s->concentration > 0.0 && s->concentration <= MAX_CONCENTRATION, m, FW_E_ARG,
-             "ice concentration %g %% is outside (0, %g] %%", 100.0 * s->concentration, 100.0 * MAX_CONCENTRATION);
+    FW_CHECK(s->concentration > 0.0 && s->concentration <= FW_MAX_CONCENTRATION, m, FW_E_ARG,
+             "ice concentration %g %% is outside (0, %g] %%", 100.0 * s->concentration, 100.0 * FW_MAX_CONCENTRATION);
     FW_TRY(fw_sizes_init(&sizes, s->mix, s->size_law, s->size_a, s->size_b, m));
 
     fw_field *f;

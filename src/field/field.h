@@ -43,7 +43,7 @@ typedef struct fw_tile {
 
 typedef struct fw_field fw_field;
 
-/* Copies what it needs of the mix. FW_E_ARG: concentration outside (0, 0.65], mix or size law that sizes.h refuses. */
+/* Copies what it needs of the mix. FW_E_ARG: concentration outside (0, FW_MAX_CONCENTRATION], mix or size law that sizes.h refuses. */
 fw_status fw_field_create(fw_field **out, const fw_field_settings *s, fw_msg *m);
 void      fw_field_destroy(fw_field *f);
 double    fw_field_tile_length(const fw_field *f); /* L [m] */

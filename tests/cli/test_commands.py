@@ -349,7 +349,7 @@ class BadInput(InFolder):
         for setting, piece in (
             ("current.speed=2", "no unit"), ("current.speed=2 kg", "2 kg"), ("current.speed=2 m/s and more", "2 m/s and more"),
             ("current.speed=nan m/s", "nan"), ("current.speed=1e999 m/s", "1e999"), ("curent.speed=1 m/s", "current"),
-            ("ice.concentration=0 %", "concentration"), ("ice.concentration=65.1 %", "65 %"), ("ice.temperature=-1 degC", "temperature_floor"),
+            ("ice.concentration=0 %", "concentration"), ("ice.concentration=80.1 %", "80 %"), ("ice.temperature=-1 degC", "temperature_floor"),
             ("ice.temperature=1 degC", "temperature"), ("exposure.window=-1 s", "window"), ("accuracy=50 %", "accuracy"), ("seed=-1", "seed"),
             ("ice.thickness_mixes=[{probability: 0.5, classes: {0.3 m: 1}}]", "sum"), ("=", "--set"), ("name=", "name"),
         ):

@@ -63,9 +63,9 @@ static void concentration_sizes_and_shares_are_the_wanted_ones(void **state)
     enum { N_TILES = 60 };
     const fw_thickness_mix mixes[] = {mix_paper(false), mix_paper(true), mix_thin(false), mix_thin(true),
                                       mix_single(0.5)};
-    static const double    concentrations[] = {0.05, 0.1, 0.4, 0.6, 0.65};
+    static const double    concentrations[] = {0.05, 0.1, 0.4, 0.6, 0.65, 0.75, 0.8};
     for (size_t k = 0; k < 5; k++) {
-        for (size_t c = 0; c < 5; c++) {
+        for (size_t c = 0; c < 7; c++) {
             const fw_thickness_mix *mix = &mixes[k];
             strip                   s = make_strip(mix, concentrations[c], 10 * k + c, N_TILES);
             fw_field_census         n = fw_field_count(s.field);

@@ -64,7 +64,8 @@ static void nothing_overlaps_anywhere(void **state)
         double           concentration;
     } cases[] = {{mix_paper(false), 0.1}, {mix_paper(false), 0.4},  {mix_paper(false), 0.65},
                  {mix_paper(true), 0.65}, {mix_thin(false), 0.65},  {mix_single(0.5), 0.65},
-                 {mix_single(1.3), 0.65}, {mix_single(8.04), 0.65}, {mix_single(0.0855), 0.02}};
+                 {mix_single(1.3), 0.65}, {mix_single(8.04), 0.65}, {mix_single(0.0855), 0.02},
+                 {mix_paper(false), 0.8}, {mix_thin(false), 0.8},   {mix_single(8.04), 0.75}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         fw_field      *f = make(&cases[k].mix, cases[k].concentration, 5, k);
         const fw_tile *t[15];
@@ -209,7 +210,7 @@ static void census_counts_every_tile_once(void **state)
 static void settings_out_of_range_are_refused(void **state)
 {
     (void)state;
-    static const double bad[] = {0.0, -0.1, 0.6500001, 1.0, NAN, INFINITY};
+    static const double bad[] = {0.0, -0.1, 0.8000001, 1.0, NAN, INFINITY};
     fw_thickness_mix    mix = mix_paper(false);
     fw_field           *f;
     fw_msg              m;
@@ -218,7 +219,7 @@ static void settings_out_of_range_are_refused(void **state)
         assert_int_equal(fw_field_create(&f, &s, &m), FW_E_ARG);
         assert_null(f);
         assert_non_null(strstr(m.text, "concentration"));
-        assert_non_null(strstr(m.text, "65"));
+        assert_non_null(strstr(m.text, "80"));
     }
     fw_field_settings s = {.concentration = 0.4, .mix = NULL};
     assert_int_equal(fw_field_create(&f, &s, &m), FW_E_ARG);
