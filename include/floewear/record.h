@@ -9,8 +9,9 @@
 #include "floewear/status.h"
 
 /* The records of a campaign are those of one generation of the program. Raised by every change that gives a realisation other numbers, and part
- * of what a campaign's hash stands for: runs begun by another generation are refused, not mixed. 2: accuracy levels of November 2026. */
-enum { FW_RECORD_GENERATION = 2 };
+ * of what a campaign's hash stands for: runs begun by another generation are refused, not mixed. 2: accuracy levels of
+ * November 2026; 3: awake_floes, reach. */
+enum { FW_RECORD_GENERATION = 3 };
 
 /* Scalar columns: C type tag, name (also the HDF5 dataset and journal order), unit (UDUNITS), long name.
  * One list, so that packing, HDF5, documentation and comparison cannot drift apart. */
@@ -39,6 +40,8 @@ enum { FW_RECORD_GENERATION = 2 };
     X(late_touches, "1", "touches found only after the rims had overlapped")                                           \
     X(floes_made, "1", "floes generated")                                                                              \
     X(floes_touched, "1", "floes that were ever touched")                                                              \
+    X(awake_floes, "1", "largest number of floes at once that were touched or about to meet the structure")                                  \
+    X(reach, "m", "how far upstream of the structure's axis ice was disturbed at most")                                \
     X(host_cpu_s, "s", "processor time on the machine that computed it")
 
 typedef struct fw_record {

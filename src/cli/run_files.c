@@ -51,6 +51,9 @@ static fw_status files_check_results(const fw_run_files *f, bool is_fresh, fw_ms
 
     if (stat(f->results_path, &s) != 0) return FW_OK;
     status = fw_results_open(&r, f->results_path, m);
+    if (status == FW_E_MISMATCH && is_fresh) return FW_OK; /* ours, of another version */
+    FW_CHECK(status != FW_E_MISMATCH, m, FW_E_MISMATCH,
+             "%s holds results of another version of floewear; choose another name with -o, or --fresh to replace it", f->results_path);
     if (status != FW_OK) {
         fw_msg_prefix(m, "will not replace a file that is no results file of ours: ");
         return status;

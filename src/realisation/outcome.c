@@ -21,6 +21,8 @@ void fw_outcome_fill(fw_record *r, const fw_world *w, const fw_wear *wear, doubl
     r->steps = l->steps;
     r->late_touches = l->late_touches;
     r->floes_touched = (double)w->n_touched;
+    r->awake_floes = l->awake_floes;
+    r->reach = l->reach;
     for (size_t k = 0; k < wear->n_arcs; k++) r->rings[k] = wear->path[k] * 1e-3; /* m -> km */
     for (size_t i = 0; i < wear->n_laws; i++) {
         double to_edge = pow(1e-6, wear->exponent[i]) * 1e-3; /* Pa^m m -> MPa^m km */

@@ -54,6 +54,15 @@ static fw_status lay(run *r, const fw_scenario *sc, fw_msg *m)
                       sc->speed * fw_accuracy_warm_up(r->model, sc->speed), m);
 }
 
+/* How many floes are awake, and how far the jam has grown against the current. */
+static void note_extent(fw_world *w)
+{
+    fw_ledger *l = &w->ledger;
+    if ((double)w->n_bodies > l->awake_floes) l->awake_floes = (double)w->n_bodies;
+    for (size_t i = 0; i < w->n_bodies; i++)
+        if (-w->bodies[i].x > l->reach) l->reach = -w->bodies[i].x;
+}
+
 static fw_status go(run *r, double t_end, double t_all, const fw_tick *tick, fw_status *stopped, fw_msg *m)
 {
     fw_world *w = r->world;
@@ -65,6 +74,7 @@ static fw_status go(run *r, double t_end, double t_all, const fw_tick *tick, fw_
             FW_TRY(fw_plain_step(r->plain, w, &r->wear, t_end, m));
         else
             FW_TRY(fw_kernel_step(r->kernel, w, &r->wear, t_end, m));
+        note_extent(w);
         /* Less than a millisecond of work, so that messages of other ranks get on. */
         if (tick && (quiet % 64 == 0 || w->ledger.force_evaluations - told > 5e3)) {
             told = w->ledger.force_evaluations;

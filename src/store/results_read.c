@@ -44,8 +44,8 @@ static fw_status read_root(fw_results *r, fw_msg *m)
     free(filetype);
     FW_TRY(status);
     FW_TRY(fw_h5_get_u64(f, "format_version", &version, m));
-    FW_CHECK(version == FW_RESULTS_VERSION, m, FW_E_FORMAT,
-             "%s: format version %" PRIu64 "; this program reads version %d", f->path, version,
+    FW_CHECK(version == FW_RESULTS_VERSION, m, FW_E_MISMATCH,
+             "%s holds results of another version of floewear (format %" PRIu64 ", this program's is %d)", f->path, version,
              (int)FW_RESULTS_VERSION);
     FW_TRY(fw_h5_get_u64(f, "seed", &seed, m));
     FW_CHECK(seed <= INT64_MAX, m, FW_E_FORMAT, "%s: seed %" PRIu64 " is beyond %" PRId64, f->path, seed, INT64_MAX);

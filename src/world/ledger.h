@@ -23,6 +23,9 @@ typedef struct fw_ledger {
     double max_overlap;       /* [m] */
     double max_overlap_share; /* over the smaller radius */
     double overlap_time;      /* [s] with any overlap beyond a tenth of the smaller radius */
+    /* extent of the disturbed ice */
+    double awake_floes; /* most at once */
+    double reach;       /* farthest upstream of the structure's axis [m] */
     /* cost */
     double force_evaluations; /* one per contact and stage; of a lone floe per state that drag is asked at */
     double steps, rejected, macro_steps, rebuilds, touches, late_touches;
