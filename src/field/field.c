@@ -37,6 +37,8 @@
 
 enum { N_LEVELS = 8 };
 static const double  TILE_LENGTH = 100.0;      /* [m] */
+/* Odd rows, packed last between finished neighbours, do not reach 80 %; a straight current through dense ice stays in row 0. */
+static const double  DENSE = 0.65, DENSE_TILE_LENGTH = 200.0;
 static const double  DIAMETERS_PER_TILE = 7.5; /* a tile is at least this many of the largest diameter long */
 static const int64_t MAX_INDEX = 1 << 20; /* of a column or row: 1e8 m, where doubles still resolve 1.5e-8 m */
 
@@ -82,7 +84,7 @@ fw_status fw_field_create(fw_field **out, const fw_field_settings *s, fw_msg *m)
     f->settings = *s;
     f->settings.mix = NULL; /* borrowed for this call only: sizes holds what matters */
     f->sizes = sizes;
-    f->length = fmax(TILE_LENGTH, DIAMETERS_PER_TILE * sizes.max_diameter);
+    f->length = fmax(s->concentration > DENSE ? DENSE_TILE_LENGTH : TILE_LENGTH, DIAMETERS_PER_TILE * sizes.max_diameter);
     f->forgotten = INT64_MAX;
     *out = f;
     return FW_OK;

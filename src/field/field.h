@@ -4,7 +4,7 @@
  * made and in whatever order. Frame: drifts with the ice, +x along the window's mean current; tile (c, r) holds the
  * floes whose centres lie in [c L, (c+1) L) x [(r - 1/2) L, (r + 1/2) L), so row 0 is centred on the structure's line
  * and a straight current needs row 0 alone (it is packed before the rows beside it and never looks at them). A floe
- * belongs to the tile of its centre and may reach into the next. L is 100 m, or 7.5 times the largest diameter where
+ * belongs to the tile of its centre and may reach into the next. L is 100 m (200 m above 65 % ice), or 7.5 times the largest diameter where
  * that is more (h > 1.45 m).
  *
  * Each tile draws the multiset of its floes first: n = C L^2 / E[floe area], rounded at random, as n stratified
