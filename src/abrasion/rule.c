@@ -94,13 +94,14 @@ static const struct fw_rule_stages *know_stages(fw_rule *r, const fw_wear_interv
 
 static void through_stages(fw_rule *r, const fw_wear_interval *iv, course *c)
 {
-    size_t n = iv->n_stages;
+    size_t                       n = iv->n_stages;
+    bool                         is_release = n == 2; /* the method's stages stay known */
+    const struct fw_rule_stages *s = is_release && !iv->has_overlap ? NULL : know_stages(r, iv);
     c->n = n;
-    if (n == 2) { /* a release: the method's stages stay known */
+    if (is_release) {
         c->normal[0] = iv->normal[0], c->normal[1] = iv->normal[1] - iv->normal[0];
         c->slip[0] = iv->slip[0], c->slip[1] = iv->slip[1] - iv->slip[0];
     } else {
-        const struct fw_rule_stages *s = know_stages(r, iv);
         for (size_t k = 0; k < n; k++) {
             double normal = 0, slip = 0;
             for (size_t i = 0; i < n; i++) {
@@ -112,7 +113,6 @@ static void through_stages(fw_rule *r, const fw_wear_interval *iv, course *c)
     }
     c->n_depth = iv->has_overlap ? n : 4;
     if (iv->has_overlap) {
-        const struct fw_rule_stages *s = know_stages(r, iv);
         for (size_t k = 0; k < n; k++) {
             c->depth[k] = 0;
             for (size_t i = 0; i < n; i++) c->depth[k] += s->to_power[k][i] * iv->overlap[i];

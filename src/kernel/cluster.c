@@ -13,7 +13,6 @@
 static const double TURN_AT_END = 0.98; /* share of a step past which a turn of force counts as its end */
 static const double SHORT = 0.01;       /* step in 1/w that no turn of force is looked for in */
 static const double SLIVER = 1e-6;      /* step in 1/w */
-static const double SHORTEST = 1e-9;    /* steps below this, in 1/w, are taken whatever their error */
 /* First step after a touch of two floes, over the one after a touch at that speed of the structure, where it is wear as well: there no step
  * was refused and nearly all grew by as much as they may; four times as long a one puts the energy of two floes 1.3 % out. */
 static const double BETWEEN_FLOES = 2.5;
@@ -261,7 +260,7 @@ static fw_status attempt_until_good(fw_cluster *c, const fw_books *books, double
     const fw_method *me = books->setup->method;
     for (;;) {
         *err = attempt(c, books, *h);
-        if (*err <= 1 || *h * c->omega <= SHORTEST) break;
+        if (*err <= 1 || *h * c->omega <= FW_SHORTEST) break;
         double f = isfinite(*err) ? fw_larger(0.2, 0.9 * step_factor(me, *err)) : 0.1;
         *h *= fw_smaller(f, 0.9);
         books->world->ledger.rejected++;

@@ -98,6 +98,8 @@ fw_status fw_cluster_close(fw_cluster *c, const fw_books *b, int32_t a, int32_t 
 void      fw_cluster_restart(fw_cluster *c, const fw_books *b);
 /* A step from t0 whose error is within the tolerance, at most to limit. FW_E_NUMERIC: the state is not finite. */
 fw_status fw_cluster_try(fw_cluster *c, const fw_books *b, double limit, fw_msg *m);
+/* Steps below this, in 1/w, are taken whatever their error. */
+static const double FW_SHORTEST = 1e-9;
 /* Length of the next step: h or what is left, and no sliver at the end, two halves instead. */
 static inline double fw_step_without_sliver(double h, double left) { return h >= left ? left : h > 0.5 * left ? 0.5 * left : h; }
 /* The same, cut to end at t exactly, t0 < t < t1. A part of a step whose error was tolerable is taken whatever its own estimate says: ending

@@ -31,7 +31,6 @@ enum { TERMS = FW_LONE_TERMS, MAX_SWEEPS = 3 };
 
 /* Below this rate x span a power series is exact to rounding, and the closed form would cancel. */
 static const double SHORT = 0.3;
-static const double SHORTEST = 1e-9; /* steps below this, in 1/w, are taken whatever their error */
 /* Forces below this share of m w x velocity scale are zero: their slope says what comes. */
 static const double TINY = 1e-10;
 
@@ -312,9 +311,9 @@ fw_status fw_lone_try(fw_cluster *c, const fw_books *b, double limit, fw_msg *ms
     double h = fw_step_without_sliver(c->h, left), wanted = c->h, tried = h;
     for (;;) {
         err = attempt(c, b, h, &event);
-        if (err <= 1 || h * omega <= SHORTEST) break;
+        if (err <= 1 || h * omega <= FW_SHORTEST) break;
         double f = isfinite(err) ? fw_smaller(0.9, fw_larger(0.2, step_factor(err))) : 0.1;
-        if (event * 1.05 < f * h && event * omega > SHORTEST) f = event * 1.05 / h;
+        if (event * 1.05 < f * h && event * omega > FW_SHORTEST) f = event * 1.05 / h;
         h *= f;
         b->world->ledger.rejected++;
     }
@@ -322,7 +321,7 @@ fw_status fw_lone_try(fw_cluster *c, const fw_books *b, double limit, fw_msg *ms
     if (h < tried) wanted = h;
     double f = err > 0 ? fw_smaller(set->growth, step_factor(err)) : set->growth;
     c->h = h < wanted ? fw_larger(wanted, h * f) : h * f;
-    double length = event < h ? fw_larger(event, fw_smaller(h, SHORTEST / omega)) : h;
+    double length = event < h ? fw_larger(event, fw_smaller(h, FW_SHORTEST / omega)) : h;
     finish(c, b, length);
     c->t1 = length == left ? limit : c->t0 + length;
     L->t1 = c->t1;

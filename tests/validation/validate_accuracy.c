@@ -8,13 +8,13 @@
 #include <stdlib.h>
 
 #include "base/random.h"
+#include "bench/bench.h"
 #include "floewear/realisation.h"
 
 enum { N_HITS = 20000, MAX_WINDOWS = 3000 };
 static const double ACCURACY[] = {1e-1, 1e-2, 1e-3, 1e-4};
 
 static FILE *copy;
-static int   n_broken;
 
 static void say(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
 static void say(const char *fmt, ...)
@@ -27,13 +27,6 @@ static void say(const char *fmt, ...)
         vfprintf(to[i], fmt, args);
         va_end(args);
     }
-}
-
-static void expect(bool holds, const char *law)
-{
-    if (holds) return;
-    n_broken++;
-    fprintf(stderr, "broken: %s\n", law);
 }
 
 /* ---- single hits ------------------------------------------------------------------------------------------------- */
@@ -113,10 +106,10 @@ static void hits(void)
         errors c = errors_of(n, along, ACCURACY[a]), w = errors_of(n, wall, ACCURACY[a]);
         say("| %g %% | %+.1e | %.1e | %.1e | %.1e | %zu | %+.1e | %.1e | %.1e | %zu | %.1e | %.0f |\n", 100 * ACCURACY[a], c.mean, c.median,
             c.most, c.worst, c.n_beyond, w.mean, w.most, w.worst, w.n_beyond, balance, evaluations / (double)n);
-        expect(w.n_beyond == 0, "depth on the wall of every hit is within the accuracy");
-        expect(c.n_beyond <= N_HITS / 1000, "depth along the contact is within the accuracy in 999 of 1000 hits");
-        expect(fabs(c.mean) < 0.1 * ACCURACY[a] && fabs(w.mean) < 0.1 * ACCURACY[a], "mean error of hits within a tenth of the accuracy");
-        expect(balance <= ACCURACY[a], "energy balance of every hit is within the accuracy");
+        bench_expect(w.n_beyond == 0, "depth on the wall of every hit is within the accuracy");
+        bench_expect(c.n_beyond <= N_HITS / 1000, "depth along the contact is within the accuracy in 999 of 1000 hits");
+        bench_expect(fabs(c.mean) < 0.1 * ACCURACY[a] && fabs(w.mean) < 0.1 * ACCURACY[a], "mean error of hits within a tenth of the accuracy");
+        bench_expect(balance <= ACCURACY[a], "energy balance of every hit is within the accuracy");
     }
     say("\nThose beyond are glances: the floe bounces, nearly parts and is pressed once more for a moment with next to no overlap, where pressure, "
         "but not wear on the wall, has no bound.\n\n");
@@ -126,25 +119,10 @@ static void hits(void)
 
 static double window_depth(double concentration, double length, double accuracy, uint64_t id)
 {
-    fw_model    m;
-    fw_scenario s = {.seed = 20260101, .id = id, .concentration = concentration, .speed = 2};
-    fw_record   r;
-    fw_msg      msg = {""};
-    fw_model_defaults(&m);
-    m.window = length, m.accuracy = accuracy;
-    if (fw_realise(&m, &s, NULL, &r, &msg) != FW_OK || r.status != FW_OK) {
-        fprintf(stderr, "%s%s\n", msg.text, r.cause);
-        exit(1);
-    }
-    double sum = 0;
-    size_t n = 0;
-    for (size_t k = 0; k < r.n_arcs; k++) {
-        double degrees = ((double)k + 0.5) * 360 / (double)r.n_arcs;
-        if (degrees > 75 && degrees < 285) continue;
-        sum += fw_record_load(&r, 0, FW_RING_LOAD)[k], n++;
-    }
+    fw_record r = bench_realise(concentration, 2, length, accuracy, 0, id);
+    double    depth = bench_depth(&r);
     fw_record_free(&r);
-    return sum / (double)n;
+    return depth;
 }
 
 typedef struct fields {
@@ -177,8 +155,8 @@ static void windows(void)
             double error = sqrt((second - first * first) / (double)(f->n - 1));
             say("| %g %% | %zu of %g s | %g %% | %+.2g +- %.1g %% | %.2g %% | %.2g %% | %.2g %% |\n", 100 * f->concentration, f->n, f->length,
                 100 * ACCURACY[a], 100 * first, 100 * error, 100 * size[f->n / 2], 100 * size[f->n * 9 / 10], 100 * sqrt(second));
-            expect(fabs(first) <= ACCURACY[a] + 2 * error, "mean depth of windows within the accuracy");
-            if (f->is_coupled) expect(size[f->n * 9 / 10] <= ACCURACY[a], "nine of ten coupled windows within the accuracy");
+            bench_expect(fabs(first) <= ACCURACY[a] + 2 * error, "mean depth of windows within the accuracy");
+            if (f->is_coupled) bench_expect(size[f->n * 9 / 10] <= ACCURACY[a], "nine of ten coupled windows within the accuracy");
         }
     }
     say("\n");
@@ -201,5 +179,5 @@ int main(int argc, char **argv)
         perror(argv[1]);
         return 1;
     }
-    return n_broken > 0;
+    return bench_end();
 }

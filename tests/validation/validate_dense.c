@@ -9,7 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "floewear/realisation.h"
+#include "bench/bench.h"
 
 enum { MAX_RUNS = 60 };
 
@@ -32,15 +32,7 @@ typedef struct result {
 static result (*found)[MAX_RUNS]; /* (N_CASES) shared by all processes */
 
 static FILE *copy;
-static int   n_broken;
 #define SAY(...) (printf(__VA_ARGS__), copy ? fprintf(copy, __VA_ARGS__) : 0)
-
-static void expect(bool holds, const char *where, const char *law)
-{
-    if (holds) return;
-    n_broken++;
-    fprintf(stderr, "broken: %s: %s\n", where, law);
-}
 
 /* Mean load over the arcs within 75 degrees [MPa^m km]. */
 static double front(const fw_record *r)
@@ -137,10 +129,10 @@ static void tell(size_t c)
     SAY("| %s | %zu | %zu | %.3g +- %.1g %% | %.0f | %.0f, %.0f | %.0f, %.0f | %.2g | %.1e | %.0e | %.2g %% | %.2g | %.1f |\n", k->name, k->n, n_failed,
         d.mean, 100 * d.error / d.mean, h.mean, r.mean, r.largest, a.mean, a.largest, l.mean, e.largest, b.largest, 100 * o.mean,
         column(c, k->n, evaluations).mean, column(c, k->n, cpu).mean);
-    expect(n_failed == 0, k->name, "no realisation fails");
-    expect(e.largest <= k->accuracy, k->name, "energy balance within the accuracy");
-    expect(b.largest <= 1e-10, k->name, "energy, momentum and wear are booked to 1e-10");
-    expect(l.mean < 1e-3 * h.mean, k->name, "late touches are fewer than one in a thousand hits");
+    bench_expect(n_failed == 0, "%s: no realisation fails", k->name);
+    bench_expect(e.largest <= k->accuracy, "%s: energy balance within the accuracy", k->name);
+    bench_expect(b.largest <= 1e-10, "%s: energy, momentum and wear are booked to 1e-10", k->name);
+    bench_expect(l.mean < 1e-3 * h.mean, "%s: late touches are fewer than one in a thousand hits", k->name);
 }
 
 int main(int argc, char **argv)
@@ -171,14 +163,14 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < n; i++) change[i] = (found[SEVENTY][i].depth - found[SEVENTY_FINE][i].depth) / fine.mean;
     spread s = of(change, n);
     SAY("\nSame %zu fields at 70 %%, accuracy 1 %% against 0.1 %%: mean wear load %+.2g +- %.1g %%.\n", n, 100 * s.mean, 100 * s.error);
-    expect(fabs(s.mean) <= 0.01 + 2 * s.error, "70 %", "two accuracies agree in the mean");
+    bench_expect(fabs(s.mean) <= 0.01 + 2 * s.error, "%s: two accuracies agree in the mean", "70 %");
     double early = column(SEVENTY_SHORT, CASE[SEVENTY_SHORT].n, reach).mean, later = column(SEVENTY, CASE[SEVENTY_SHORT].n, reach).mean;
     SAY("\nThe jam at 70 %% reaches %.0f m within the first hour and %.0f m within three: it finds a length of its own, and inflow is what the current brings.\n",
         early, later);
-    expect(later < 1.25 * early, "70 %", "a jam does not grow on and on");
+    bench_expect(later < 1.25 * early, "%s: a jam does not grow on and on", "70 %");
     if (copy && fclose(copy) != 0) {
         perror(argv[1]);
         return 1;
     }
-    return n_broken > 0;
+    return bench_end();
 }
