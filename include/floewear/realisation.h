@@ -37,6 +37,7 @@ typedef struct fw_scene {
 
 /* One saved instant, for trajectories: t and the floes' states then. */
 typedef struct fw_frame_sink {
+    /* The first frame is at t = 0. Another one at t = 0 begins anew: the run is repeated with finer steps, what came before is void. */
     fw_status (*frame)(void *self, double t, size_t n_floes, const fw_floe *floes, fw_msg *m);
     void  *self;
     double interval; /* [s] of simulated time */
@@ -52,6 +53,11 @@ typedef struct fw_scene_result {
     size_t    n_floes;
     fw_floe  *floes; /* (n_floes) final states, owned */
 } fw_scene_result;
+
+/* The floes of a realisation at time t after its start, warm-up included, that move then or may within `duration`, as a scene of its own: to see
+ * a failure without what went before. Temperature is left at 0. The caller frees it. */
+fw_status fw_realise_excerpt(const fw_model *model, const fw_scenario *scenario, double t, double duration, const fw_tick *tick,
+                             fw_scene *out, fw_msg *m);
 
 fw_status fw_scene_run(const fw_scene *scene, const fw_tick *tick, const fw_frame_sink *frames, fw_scene_result *out,
                        fw_msg *m);

@@ -10,8 +10,8 @@
 
 /* The records of a campaign are those of one generation of the program. Raised by every change that gives a realisation other numbers, and part
  * of what a campaign's hash stands for: runs begun by another generation are refused, not mixed. 2: accuracy levels of
- * November 2026; 3: awake_floes, reach. */
-enum { FW_RECORD_GENERATION = 3 };
+ * November 2026; 3: awake_floes, reach; 4: watch-dogs, second tries. */
+enum { FW_RECORD_GENERATION = 4 };
 
 /* Scalar columns: C type tag, name (also the HDF5 dataset and journal order), unit (UDUNITS), long name.
  * One list, so that packing, HDF5, documentation and comparison cannot drift apart. */
@@ -24,6 +24,7 @@ enum { FW_RECORD_GENERATION = 3 };
     X(mean_diameter, "m", "mean floe diameter of the field that was packed")                                           \
     X(window, "s", "exposure that the wear was collected over")                                                        \
     X(warm_up, "s", "time simulated before the window")                                                                \
+    X(failed_at, "s", "simulated time that a failed realisation had come to, warm-up included; 0: it did not fail")        \
     X(hits, "1", "first touches of a floe and the structure after 1 s apart, within the window")                       \
     X(contact_time, "s", "sum over floes of the time with a force on the structure")                                   \
     X(normal_impulse, "N s", "sum over floes of the normal impulse on the structure")                                  \
@@ -37,7 +38,11 @@ enum { FW_RECORD_GENERATION = 3 };
     X(wear_conservation, "1", "wear load on the ring against the patch integral, relative")                            \
     X(force_evaluations, "1", "contact force evaluations, one per contact and stage")                                  \
     X(steps, "1", "sub-steps of all islands")                                                                          \
+    X(refined_steps, "1", "sub-steps repeated with half their length because a watch-dog saw a law broken")             \
+    X(slip_chatter, "1", "share of the steps on the structure whose slip jumped to and fro between the caps of friction") \
     X(late_touches, "1", "touches found only after the rims had overlapped")                                           \
+    X(late_overlap, "1", "largest overlap at such a touch over the smaller radius")                                    \
+    X(tries, "1", "1; 2 when the first try failed and finer steps were taken from the start")                          \
     X(floes_made, "1", "floes generated")                                                                              \
     X(floes_touched, "1", "floes that were ever touched")                                                              \
     X(awake_floes, "1", "largest number of floes at once that were touched or about to meet the structure")                                  \
@@ -47,7 +52,7 @@ enum { FW_RECORD_GENERATION = 3 };
 typedef struct fw_record {
     uint64_t  id;
     fw_status status;     /* FW_OK, or why the realisation failed; a failed one is kept, never dropped */
-    char      cause[200]; /* empty when FW_OK */
+    char      cause[200]; /* why it failed; with FW_OK: empty, or why the first of two tries failed */
 #define X(name, unit, long_name) double name;
     FW_RECORD_LIST(X)
 #undef X

@@ -109,13 +109,14 @@ typedef struct fw_model {
     size_t n_arcs;      /* of the ring, >= 72; default 360 */
     double strip_width; /* [m]; <= 0: auto (100 m) */
     double downstream;  /* floes are forgotten beyond this x [m]; <= 0: auto */
+    double max_evaluations; /* force evaluations that one realisation may take; <= 0: auto, 100 times what is expected of it */
     fw_numerics numerics;
 } fw_model;
 
 typedef struct fw_scenario {
     uint64_t seed;          /* of the campaign */
     uint64_t id;            /* of the realisation, 0 .. */
-    double   concentration; /* 0 .. 0.65 [-] */
+    double   concentration; /* more than 0, at most FW_MAX_CONCENTRATION [-] */
     double   speed;         /* of the current [m/s], > 0 */
     uint32_t mix;           /* index into fw_model.mixes */
     uint32_t cell; /* index into fw_site.cells when the site has a joint table, else 0: names the direction law */

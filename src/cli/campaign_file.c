@@ -284,6 +284,7 @@ static fw_status read_campaign(const fw_reader *r, const char *file, int64_t see
     FW_TRY(read_numerics(r, &v, &c->model));
     c->model.window = v.window;
     c->model.warm_up = v.warm_up;
+    c->model.max_evaluations = v.max_evaluations;
     c->model.strip_width = v.strip_width;
     c->model.downstream = v.downstream;
     c->site.temperature_floor = v.temperature_floor;

@@ -151,6 +151,8 @@ static const fw_key EXPOSURE[] = {
     NUMBER("window", window, "s", "3 h", FROM_TO(1e-3, 1e9), "time that one realisation collects wear over"),
     AUTO("warm_up", warm_up, "s", "auto", FROM_TO(0, 1e9),
          "time simulated before the window; 0 s: starts in a placed field"),
+    AUTO("max_force_evaluations", max_evaluations, "1", "auto", FROM_TO(1, 1e18),
+         "a realisation that takes more fails; auto: 100 times what is expected of it"),
 };
 SECTION(fw_table_exposure, "exposure", "what one realisation simulates", EXPOSURE);
 

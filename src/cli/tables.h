@@ -22,7 +22,7 @@ typedef struct fw_values {
     int      contact_law;
     double   stiffness, damping_ratio, friction, slip_damping_ratio;
     double   water_density, form_drag;
-    double   window, warm_up;
+    double   window, warm_up, max_evaluations;
     double   strip_width, downstream;
     double   n_arcs;
     double   order, tolerance, wear_tolerance, first_step, growth; /* < 0: auto */

@@ -1,7 +1,8 @@
-/* What a committed step leaves behind: energy, momentum, counts, and wear on the ring.
+/* What a step leaves behind: energy, momentum, counts, and wear on the ring.
  *
  * Energy is entered where the force acts, by the method's own quadrature; what the checks compare is reached on another
- * way (change of kinetic energy, stored energy at the ends). */
+ * way (change of kinetic energy, stored energy at the ends). A step is weighed when it is tried, for its watch-dogs (watch.c), and entered
+ * when it is committed. */
 #include "geometry/ring.h"
 #include "kernel/cluster.h"
 
@@ -19,13 +20,11 @@ static void shove(fw_member *m, double jx, double jy, double rub)
     m->shoved += fw_length(jx, jy) * m->own_inv_mass;
 }
 
-static void keep_pair(const fw_cluster *c, const fw_books *books, const fw_pair *p, double h, bool *is_beyond)
+static void weigh_pair(fw_cluster *c, const fw_method *me, const fw_pair *p, double h, fw_step_books *to)
 {
-    const fw_method *me = books->setup->method;
-    fw_ledger       *l = &books->world->ledger;
-    fw_member       *a = &c->members[p->a], *b = p->b == FW_WALL ? NULL : &c->members[p->b];
-    size_t           last = me->n_stages - 1;
-    double           jx = 0, jy = 0, rub = 0, push = 0, dashpot = 0, dropped = 0, friction = 0;
+    fw_member *a = &c->members[p->a], *b = p->b == FW_WALL ? NULL : &c->members[p->b];
+    size_t     last = me->n_stages - 1;
+    double     jx = 0, jy = 0, rub = 0, push = 0, dashpot = 0, dropped = 0, friction = 0;
     for (size_t s = 0; s <= last; s++) {
         double hb = h * me->b[s], n = p->normal[s], f = p->friction[s], d = p->depth[s], w = p->rate[s];
         jx += hb * (n * p->dir[s][0] - f * p->dir[s][1]), jy += hb * (n * p->dir[s][1] + f * p->dir[s][0]);
@@ -36,34 +35,31 @@ static void keep_pair(const fw_cluster *c, const fw_books *books, const fw_pair 
         else
             dropped -= hb * spring;
         friction -= hb * f * p->slip[s];
-        if (p->b == FW_WALL && n > l->peak_force) l->peak_force = n;
+        if (p->b == FW_WALL) to->peak_force = fw_larger(to->peak_force, n);
     }
-    if (!(push > 0)) {
-        /* No force at all: what the spring loses is dropped, exactly, also where the rims part inside the step. */
-        double d0 = fw_larger(0, p->depth[0]), d1 = fw_larger(0, p->depth[last]);
-        dashpot = 0, dropped = 0.5 * p->law.k * (d0 * d0 - d1 * d1);
-    }
-    l->dashpot += dashpot, l->dropped += dropped, l->friction += friction;
+    double d0 = fw_larger(0, p->depth[0]), d1 = fw_larger(0, p->depth[last]), stored = 0.5 * p->law.k * (d1 * d1 - d0 * d0);
+    /* No force at all: what the spring loses is dropped, exactly, also where the rims part inside the step. */
+    if (!(push > 0)) dashpot = 0, dropped = -stored;
+    to->dashpot += dashpot, to->dropped += dropped, to->friction += friction;
+    to->stored += stored, to->into_springs += fw_larger(0, stored);
     shove(a, jx, jy, rub);
     if (b) {
         shove(b, -jx, -jy, rub);
-    } else {
-        double from = fw_pair_signed_normal(p, 0), to = fw_pair_signed_normal(p, last);
-        l->normal_impulse += push;
-        l->contact_time += from > 0 && to > 0 ? h
-                           : from > 0         ? h * from / (from - to)
-                           : to > 0           ? h * to / (to - from)
-                                              : 0;
+        return;
     }
-    if (fw_books_overlap(l, fw_smaller(a->radius, b ? b->radius : books->setup->structure_radius), p->depth[last])) *is_beyond = true;
+    double from = fw_pair_signed_normal(p, 0), until = fw_pair_signed_normal(p, last);
+    to->normal_impulse += push;
+    to->contact_time += from > 0 && until > 0 ? h
+                        : from > 0            ? h * from / (from - until)
+                        : until > 0           ? h * until / (until - from)
+                                              : 0;
 }
 
-void fw_books_keep(const fw_cluster *c, const fw_books *books)
+void fw_books_weigh(fw_cluster *c, const fw_setup *set, double h)
 {
-    const fw_method *me = books->setup->method;
-    fw_ledger       *l = &books->world->ledger;
-    double           h = c->t1 - c->t0;
-    bool             is_beyond = false;
+    const fw_method *me = set->method;
+    fw_step_books   *to = &c->tried;
+    *to = (fw_step_books){0};
     for (size_t i = 0; i < c->n_members; i++) {
         fw_member *m = &c->members[i];
         double     j[2] = {0, 0}, work = 0;
@@ -72,28 +68,47 @@ void fw_books_keep(const fw_cluster *c, const fw_books *books)
             j[0] += hb * m->drag[s][0], j[1] += hb * m->drag[s][1];
             work += hb * (m->drag[s][0] * m->k[s][0] + m->drag[s][1] * m->k[s][1]);
         }
-        l->drag_work += work / m->own_inv_mass;
+        to->drag_work += work * m->mass;
         m->gained[0] = j[0], m->gained[1] = j[1], m->gained[2] = 0;
         m->shoved = fw_length(j[0], j[1]);
     }
-    for (size_t k = 0; k < c->n_pairs; k++) keep_pair(c, books, &c->pairs[k], h, &is_beyond);
-    if (is_beyond) l->overlap_time += h;
+    for (size_t k = 0; k < c->n_pairs; k++) weigh_pair(c, me, &c->pairs[k], h, to);
     for (size_t i = 0; i < c->n_members; i++) {
         const fw_member *m = &c->members[i];
-        double           mass = 1 / m->own_inv_mass, inertia = m->inv_inertia > 0 ? 1 / m->inv_inertia : 0;
-        double           change = 0, work = 0, err = 0;
+        double           mass = m->mass, err = 0;
         for (int q = 0; q < 3; q++) {
-            double in = q < 2 ? mass : inertia, from = m->y0[FW_VX + q], to = m->y1[FW_VX + q], dv = to - from,
-                   mean = 0.5 * (to + from);
-            change += in * dv * mean;
-            work += in * m->gained[q] * mean;
+            double in = q < 2 ? mass : m->inertia, from = m->y0[FW_VX + q], until = m->y1[FW_VX + q], dv = until - from,
+                   mean = 0.5 * (until + from);
+            to->kinetic_change += in * dv * mean;
+            to->impulse_work += in * m->gained[q] * mean;
             if (q < 2) err += fabs(dv - m->gained[q]);
         }
-        l->kinetic_change += change, l->impulse_work += work;
-        l->impulse_size += mass * m->shoved * 0.5 *
-                           (fw_length(m->y0[FW_VX], m->y0[FW_VY]) + fw_length(m->y1[FW_VX], m->y1[FW_VY]));
-        l->momentum_error += mass * err, l->momentum_size += mass * m->shoved;
+        to->impulse_size += mass * m->shoved * 0.5 *
+                            (fw_length(m->y0[FW_VX], m->y0[FW_VY]) + fw_length(m->y1[FW_VX], m->y1[FW_VY]));
+        to->momentum_error += mass * err, to->momentum_size += mass * m->shoved;
     }
+}
+
+void fw_books_keep(fw_cluster *c, const fw_books *books)
+{
+    const fw_step_books *s = &c->tried;
+    fw_ledger           *l = &books->world->ledger;
+    size_t               last = books->setup->method->n_stages - 1;
+    double               h = c->t1 - c->t0;
+    bool                 is_beyond = false;
+    l->kinetic_change += s->kinetic_change, l->impulse_work += s->impulse_work, l->impulse_size += s->impulse_size;
+    l->drag_work += s->drag_work, l->dashpot += s->dashpot, l->friction += s->friction, l->dropped += s->dropped;
+    l->into_springs += s->into_springs;
+    l->momentum_error += s->momentum_error, l->momentum_size += s->momentum_size;
+    l->normal_impulse += s->normal_impulse, l->contact_time += s->contact_time;
+    l->peak_force = fw_larger(l->peak_force, s->peak_force);
+    for (size_t k = 0; k < c->n_pairs; k++) {
+        const fw_pair *p = &c->pairs[k];
+        double         other = p->b == FW_WALL ? books->setup->structure_radius : c->members[p->b].radius;
+        is_beyond |= fw_books_overlap(l, fw_smaller(c->members[p->a].radius, other), p->depth[last]);
+    }
+    if (is_beyond) l->overlap_time += h;
+    c->dissipated += s->dashpot + s->friction + s->dropped;
 }
 
 /* The floe lets go within the step. Stages beyond the release are no force that ever was, and a polynomial through them bulges (up to

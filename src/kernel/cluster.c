@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "kernel/watch.h"
 
 static const double TURN_AT_END = 0.98; /* share of a step past which a turn of force counts as its end */
 static const double SHORT = 0.01;       /* step in 1/w that no turn of force is looked for in */
@@ -42,6 +43,8 @@ fw_status fw_cluster_join(fw_cluster *c, const fw_books *books, int32_t body, in
                      .drag_per_mass = b->drag * b->inv_mass,
                      .own_inv_mass = b->inv_mass,
                      .inv_inertia = b->inv_inertia,
+                     .mass = 1 / b->inv_mass,
+                     .inertia = b->inv_inertia > 0 ? 1 / b->inv_inertia : 0,
                      .y0 = {b->x, b->y, 0, 0, b->vx, b->vy, b->spin, 0}};
     *member = (int32_t)c->n_members++;
     return FW_OK;
@@ -62,6 +65,7 @@ fw_status fw_cluster_merge(fw_cluster *into, fw_cluster *from, fw_msg *m)
     into->h = fw_smaller(into->h, from->h);
     into->omega = fw_larger(into->omega, from->omega);
     into->n_members = n, into->n_pairs = n_pairs;
+    into->dissipated += from->dissipated;
     from->n_members = from->n_pairs = 0;
     return FW_OK;
 }
@@ -254,18 +258,27 @@ static double step_factor(const fw_method *me, double err)
     return 1 / (me->error_order == 3 ? cbrt(err) : sqrt(sqrt(err)));
 }
 
-/* Shorter and shorter until the error is within the tolerance. */
+/* Shorter and shorter until the error is within the tolerance and no watch-dog barks. */
 static fw_status attempt_until_good(fw_cluster *c, const fw_books *books, double *h, double *err, fw_msg *msg)
 {
     const fw_method *me = books->setup->method;
     for (;;) {
         *err = attempt(c, books, *h);
-        if (*err <= 1 || *h * c->omega <= FW_SHORTEST) break;
+        if (*err <= 1) {
+            fw_books_weigh(c, books->setup, *h);
+            if (!fw_watch_step(c, books->setup, *h)) return FW_OK;
+            *h *= 0.5;
+            books->world->ledger.refined++;
+            continue;
+        }
+        if (*h * c->omega <= FW_SHORTEST) break;
         double f = isfinite(*err) ? fw_larger(0.2, 0.9 * step_factor(me, *err)) : 0.1;
         *h *= fw_smaller(f, 0.9);
         books->world->ledger.rejected++;
     }
-    return isfinite(*err) ? FW_OK : fw_cluster_not_finite(c, books, msg);
+    if (!isfinite(*err)) return fw_cluster_not_finite(c, books, msg);
+    fw_books_weigh(c, books->setup, *h);
+    return FW_OK;
 }
 
 fw_status fw_cluster_try(fw_cluster *c, const fw_books *books, double limit, fw_msg *msg)
@@ -299,6 +312,7 @@ fw_status fw_cluster_land(fw_cluster *c, const fw_books *books, double t, fw_msg
     if (fw_lone_is(c, books)) return fw_lone_land(c, books, t, msg);
     double err = attempt(c, books, t - c->t0);
     if (!isfinite(err)) return fw_cluster_not_finite(c, books, msg);
+    fw_books_weigh(c, books->setup, t - c->t0);
     c->t1 = t;
     return FW_OK;
 }
@@ -313,6 +327,13 @@ static void take_force_back(fw_cluster *c, const fw_pair *p, size_t last)
     b->k[0][FW_VX] += fx * b->own_inv_mass, b->k[0][FW_VY] += fy * b->own_inv_mass, b->k[0][FW_SPIN] += f * b->turn;
 }
 
+static fw_status watch_overlap(const fw_cluster *c, const fw_books *books, const fw_pair *p, size_t last, fw_msg *msg)
+{
+    const fw_body *bodies = books->world->bodies;
+    return fw_watch_overlap(books->setup, &bodies[c->members[p->a].index], p->b == FW_WALL ? NULL : &bodies[c->members[p->b].index],
+                            p->depth[last], c->t0, msg);
+}
+
 static fw_status let_go(fw_cluster *c, const fw_books *books, int32_t *opened, size_t *n_opened, fw_msg *msg)
 {
     size_t kept = 0, last = books->setup->method->n_stages - 1;
@@ -322,10 +343,9 @@ static fw_status let_go(fw_cluster *c, const fw_books *books, int32_t *opened, s
             const fw_member *a = &c->members[p->a];
             fw_body         *body = &books->world->bodies[a->index];
             body->t_wall = c->t0;
-            FW_CHECK(fw_length(a->y0[FW_X], a->y0[FW_Y]) > books->setup->structure_radius, msg, FW_E_NUMERIC,
-                     "floe %llu (D %.3g m, h %.2g m) has its centre inside the structure at t = %.6g s",
-                     (unsigned long long)body->name, 2 * body->radius, body->thickness, c->t0);
+            FW_TRY(fw_watch_body(books->setup, body, msg));
         }
+        FW_TRY(watch_overlap(c, books, p, last, msg));
         /* Apart, and no force; or none when the step began: then what the dashpot says of rims that come back is no force yet. */
         if (p->depth[last] < 0 && (p->normal[last] <= 0 || p->normal[0] <= 0)) {
             opened[(*n_opened)++] = p->candidate;
@@ -355,6 +375,7 @@ fw_status fw_cluster_commit(fw_cluster *c, const fw_books *books, int32_t *opene
     } else {
         fw_books_keep(c, books);
         fw_books_wear(c, books);
+        fw_watch_slip(c, &books->world->ledger, last);
     }
     books->world->ledger.steps++;
     c->t0 = c->t1;

@@ -30,6 +30,7 @@ typedef struct fw_member {
     double   drag_rate, drag_per_mass;  /* drag x |u - v| / mass [1/s] that V was built with; drag / mass [1/m] */
     double   drag_speed; /* that |u - v| */
     double   own_inv_mass, inv_inertia; /* of the floe */
+    double   mass, inertia;             /* 0: rotation is locked */
     /* the step: state at both ends, slopes of the state at the stages: (vx, vy, spin, 0, ax, ay, spin's, 0) */
     double   y0[8], y1[8], k[FW_MAX_STAGES][8];
     double   drag[FW_MAX_STAGES][2];
@@ -58,7 +59,15 @@ typedef struct fw_pair {
     double  wear_until, wear_angle; /* ring angle at the end of the last interval that wore, and when */
     double  load, load_tried; /* of this touch so far, and of the tried step: see wear_error in cluster.c */
     int32_t candidate;        /* its entry in the lists of who may touch whom */
+    int8_t  jumped; /* slip went from cap to cap of friction in the step before, up or down: watch.c */
 } fw_pair;
+
+/* What a step leaves behind, before it is entered in the ledger. Energies [J], momenta [N s]. */
+typedef struct fw_step_books {
+    double kinetic_change, impulse_work, impulse_size, drag_work, dashpot, friction, dropped;
+    double stored, into_springs; /* change of spring energy; of the springs that gained some */
+    double momentum_error, momentum_size, normal_impulse, contact_time, peak_force;
+} fw_step_books;
 
 typedef struct fw_cluster {
     double     t0, t1;  /* t1 == t0: no step tried yet */
@@ -70,6 +79,8 @@ typedef struct fw_cluster {
     fw_member *members;
     fw_pair   *pairs;
     fw_lone    lone; /* the tried step of a lone floe on the structure */
+    double        dissipated; /* since the first contact [J] */
+    fw_step_books tried;      /* of the tried step, but for a lone floe's */
 } fw_cluster;
 
 /* Where committed steps leave their traces. */
@@ -119,7 +130,8 @@ double fw_cluster_lets_go(const fw_cluster *c, const fw_pair *p, const fw_method
 double fw_member_fastest(const fw_member *m, double speed, double inv_h);
 
 /* books.c: of the tried step */
-void                 fw_books_keep(const fw_cluster *c, const fw_books *b);
+void                 fw_books_weigh(fw_cluster *c, const fw_setup *set, double h); /* into c->tried */
+void                 fw_books_keep(fw_cluster *c, const fw_books *b);
 void                 fw_books_wear(const fw_cluster *c, const fw_books *b);
 /* An overlap of discs, the smaller one of radius `small`, after a step; true: beyond what soft contact is meant for. */
 bool                 fw_books_overlap(fw_ledger *l, double small, double depth);

@@ -29,6 +29,7 @@ typedef struct fw_setup {
     const fw_method *method;
     double           tolerance;      /* local error of velocity per sub-step over velocity_scale */
     double           wear_tolerance; /* error of a step's wear over the wear of its touch so far */
+    double           energy_tolerance; /* a step's imbalance of energy over what its cluster has dissipated: beyond, it is repeated finer */
     double           velocity_scale; /* [m/s] */
     double           first_step;     /* after a touch, in 1/w */
     double           growth;         /* largest factor from one sub-step to the next */

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "kernel/wake.h"
+#include "kernel/watch.h"
 
 /* Floes that the structure reaches before the next listing are awake: a candidate needs a body. */
 static fw_status wake_before_structure(fw_kernel *k, fw_msg *m)
@@ -152,6 +153,7 @@ fw_status fw_listing_make(fw_kernel *k, double t_end, fw_msg *m)
     fw_traffic *t = &k->traffic;
     fw_world   *w = t->world;
     t->now = w->t, t->until = w->t + k->horizon;
+    for (size_t i = 0; i < w->n_bodies; i++) FW_TRY(fw_watch_body(&t->setup, &w->bodies[i], m));
     FW_TRY(forget(k, m));
     FW_TRY(wake_before_structure(k, m));
     FW_TRY(fw_grow(&t->seats, &t->seat_capacity, w->n_bodies + 1, sizeof *t->seats, "candidates", m));

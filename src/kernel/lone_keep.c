@@ -108,12 +108,15 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
     if (wears) p->wear_until = c->t1, p->wear_angle = angle - e->turn;
     p->load_tried = load;
     l->drag_work += mass * drag_work, l->dashpot += dashpot, l->friction += friction;
+    double d_start = fw_larger(0, L->from.depth), d_end = fw_larger(0, e->depth);
+    double stored = 0.5 * p->law.k * (d_end * d_end - d_start * d_start);
+    l->into_springs += fw_larger(0, stored), l->wall_steps++;
+    c->dissipated += dashpot + friction;
     if (L->presses) {
         l->normal_impulse += mass * (L->span * integral(L->by.push, h / L->span) - (e->rate - L->from.rate));
         l->contact_time += h;
     } else {
-        double d0 = fw_larger(0, L->from.depth), d1 = fw_larger(0, e->depth);
-        l->dropped += 0.5 * p->law.k * (d0 * d0 - d1 * d1);
+        l->dropped -= stored;
     }
     if (fw_books_overlap(l, fw_smaller(m->radius, set->structure_radius), e->depth)) l->overlap_time += h;
     /* The contact's impulse along a turning normal has no closed form: it is what drag leaves of the change of momentum. So the two books of

@@ -53,6 +53,8 @@ static const struct row {
 };
 enum { N_ROWS = sizeof TABLE / sizeof TABLE[0] };
 
+static const double FINER = 10; /* of a second try: the step from one row to the next and more */
+
 static double blend(double a, double b, double f) { return exp(log(a) + f * (log(b) - log(a))); }
 
 /* The coarsest row that is fine enough; between two rows nobody is given less than he asked for. */
@@ -97,12 +99,27 @@ void fw_accuracy_setup(fw_setup *s, const fw_model *m, double speed, double velo
         .downstream = fw_accuracy_downstream(m),
         .max_evaluations = INFINITY,
     };
+    s->energy_tolerance = m->accuracy;
     const fw_numerics *own = &m->numerics; /* of a study of the choice itself */
     if (own->order) s->method = own->order == 2 ? FW_METHOD_TRBDF2 : own->order == 3 ? FW_METHOD_ARK3 : FW_METHOD_ARK4;
-    if (own->tolerance > 0) s->tolerance = own->tolerance, s->landing = 10 * own->tolerance;
+    if (own->tolerance > 0) {
+        s->energy_tolerance *= fmax(1, own->tolerance / s->tolerance); /* a coarser level of a study is as far out as it is meant to be */
+        s->tolerance = own->tolerance, s->landing = 10 * own->tolerance;
+    }
     if (own->wear_tolerance > 0) s->wear_tolerance = own->wear_tolerance;
     if (own->first_step > 0) s->first_step = own->first_step;
     if (own->growth > 0) s->growth = own->growth;
+}
+
+fw_model fw_accuracy_finer(const fw_model *m)
+{
+    fw_model   finer = *m;
+    fw_numerics *n = &finer.numerics;
+    fw_setup   s;
+    fw_accuracy_setup(&s, m, 1, 1);
+    n->tolerance = s.tolerance / FINER, n->wear_tolerance = s.wear_tolerance / FINER;
+    n->first_step = fmin(s.first_step, TABLE[N_ROWS - 1].first_step), n->growth = s.growth;
+    return finer;
 }
 
 double fw_accuracy_strip_width(const fw_model *m)

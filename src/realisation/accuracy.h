@@ -8,6 +8,9 @@
 /* The kernel's set-up for a model, a current speed [m/s] and the model's accuracy. */
 void fw_accuracy_setup(fw_setup *s, const fw_model *m, double speed, double velocity_scale);
 
+/* The same model for a second try: a tenth of the tolerances, all else as it is. */
+fw_model fw_accuracy_finer(const fw_model *m);
+
 /* Where "auto" stands in the model. */
 double fw_accuracy_strip_width(const fw_model *m);
 double fw_accuracy_downstream(const fw_model *m);

@@ -28,6 +28,7 @@ void fw_model_defaults(fw_model *m)
         .n_arcs = 360,
         .strip_width = -1,
         .downstream = -1,
+        .max_evaluations = -1,
     };
     m->laws[0] = *fw_abrasion_find("bekker2011");
     fw_thickness_mix *x = &m->mixes[0];

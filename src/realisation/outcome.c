@@ -1,6 +1,8 @@
 #include "realisation/outcome.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 void fw_outcome_fill(fw_record *r, const fw_world *w, const fw_wear *wear, double window)
 {
@@ -19,7 +21,9 @@ void fw_outcome_fill(fw_record *r, const fw_world *w, const fw_wear *wear, doubl
     r->wear_conservation = fw_wear_conservation(wear);
     r->force_evaluations = l->force_evaluations;
     r->steps = l->steps;
-    r->late_touches = l->late_touches;
+    r->refined_steps = l->refined;
+    r->slip_chatter = fw_ledger_chatter(l);
+    r->late_touches = l->late_touches, r->late_overlap = l->late_overlap;
     r->floes_touched = (double)w->n_touched;
     r->awake_floes = l->awake_floes;
     r->reach = l->reach;
@@ -31,4 +35,28 @@ void fw_outcome_fill(fw_record *r, const fw_world *w, const fw_wear *wear, doubl
             for (size_t k = 0; k < wear->n_arcs; k++) to[k] = wear->load[i][q][k] * to_edge;
         }
     }
+}
+
+bool fw_outcome_may_be_cured(const fw_record *r, const fw_model *m)
+{
+    return r->status == FW_E_NUMERIC && m->numerics.scheme == FW_SCHEME_EVENTS;
+}
+
+void fw_outcome_begin_again(fw_record *r, fw_msg *m)
+{
+    double evaluations = r->force_evaluations, steps = r->steps;
+    for (size_t i = 0; i < fw_n_record_columns; i++) memset((char *)r + fw_record_columns[i].offset, 0, sizeof(double));
+    memset(r->rings, 0, fw_record_n_rings(r->n_arcs, r->n_laws) * sizeof *r->rings);
+    r->force_evaluations = evaluations, r->steps = steps, r->tries = 2;
+    r->status = FW_OK;
+    snprintf(r->cause, sizeof r->cause, "first try: %.*s", (int)sizeof r->cause - 12, m->text);
+    m->text[0] = 0;
+}
+
+void fw_outcome_say(fw_record *r, fw_msg *m)
+{
+    if (r->status == FW_OK) return;
+    memset(r->rings, 0, fw_record_n_rings(r->n_arcs, r->n_laws) * sizeof *r->rings);
+    snprintf(r->cause, sizeof r->cause, "%s%.*s", r->tries > 1 ? "finer steps too: " : "", (int)sizeof r->cause - 18, m->text);
+    m->text[0] = 0;
 }

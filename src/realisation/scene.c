@@ -11,6 +11,7 @@
 #include "physics/drag.h"
 #include "realisation/accuracy.h"
 #include "realisation/outcome.h"
+#include "realisation/verdict.h"
 
 static fw_status add_floes(fw_world *w, const fw_scene *scene, const fw_setup *s, fw_msg *m)
 {
@@ -61,68 +62,97 @@ static fw_status simulate(fw_kernel *k, fw_world *w, fw_wear *wear, double durat
     }
 }
 
-fw_status fw_scene_run(const fw_scene *scene, const fw_tick *tick, const fw_frame_sink *frames, fw_scene_result *out,
-                       fw_msg *m)
+static fw_status check(const fw_scene *scene, const fw_frame_sink *frames, double *fastest, fw_msg *m)
 {
-    memset(out, 0, sizeof *out);
     FW_TRY(fw_model_check(&scene->model, m));
     FW_CHECK(scene->duration > 0 && isfinite(scene->duration), m, FW_E_ARG, "duration %g s: wanted more than 0",
              scene->duration);
     FW_CHECK(!frames || frames->interval > 0, m, FW_E_ARG, "frame interval must be positive");
-    double fastest = fabs(scene->speed);
+    *fastest = fabs(scene->speed);
     for (size_t i = 0; i < scene->n_floes; i++) {
         const fw_floe *f = &scene->floes[i];
         FW_CHECK(isfinite(f->x) && isfinite(f->y) && isfinite(f->vx) && isfinite(f->vy) && isfinite(f->spin) &&
                      f->diameter > 0 && f->thickness > 0,
                  m, FW_E_ARG, "floe %zu: a value is not finite or not positive", i + 1);
-        fastest = fmax(fastest, hypot(f->vx, f->vy));
+        *fastest = fmax(*fastest, hypot(f->vx, f->vy));
     }
-    if (!(fastest > 0)) fastest = 1e-3; /* nothing moves: any scale will do */
+    if (!(*fastest > 0)) *fastest = 1e-3; /* nothing moves: any scale will do */
+    return FW_OK;
+}
 
+/* A failed try still shows where it came to. */
+static void fill(const fw_scene *scene, const fw_world *w, fw_wear *wear, fw_scene_result *out)
+{
+    fw_record *r = &out->record;
+    double     evaluations = r->force_evaluations, steps = r->steps;
+    fw_wear_finish(wear);
+    fw_outcome_fill(r, w, wear, scene->duration);
+    r->speed = scene->speed;
+    r->force_evaluations += evaluations, r->steps += steps;
+    const fw_wear_sums *sum = &wear->sums[0];
+    double              rate = fw_abrasion_rate(&scene->model.laws[0], scene->temperature),
+           edge = pow(1e-6, wear->exponent[0]) * 1e-3 * rate;
+    out->path = sum->path;
+    out->depth_along_contact = sum->along * edge;
+    out->depth_x_wall = sum->x_wall * edge;
+    out->depth_impact = sum->impact * edge;
+    out->max_overlap = w->ledger.max_overlap;
+    out->n_floes = w->n_bodies;
+    floes_now(w, out->floes);
+}
+
+static fw_status run_once(const fw_scene *scene, const fw_model *model, double fastest, const fw_tick *tick, const fw_frame_sink *frames,
+                          fw_scene_result *out, fw_msg *m)
+{
     fw_setup   setup;
     fw_kernel *k = NULL;
     fw_world  *w = NULL;
     fw_wear    wear = {0};
-    fw_accuracy_setup(&setup, &scene->model, scene->speed, fastest);
+    fw_accuracy_setup(&setup, model, scene->speed, fastest);
     setup.half_width = setup.downstream = INFINITY; /* no untouched ice, and nobody is forgotten */
-    double    cpu = fw_cpu_seconds();
-    fw_status s = fw_record_init(&out->record, scene->model.n_arcs, scene->model.n_laws, m);
-    if (s == FW_OK) s = fw_alloc(&out->floes, scene->n_floes, sizeof *out->floes, "floes", m);
-    if (s == FW_OK)
-        s = fw_wear_init(&wear, scene->model.structure_radius, scene->model.n_arcs, scene->model.n_laws,
-                         scene->model.laws, m);
-    if (s == FW_OK) s = fw_world_create(&w, scene->model.structure_radius, m);
+    fw_status s = fw_wear_init(&wear, model->structure_radius, model->n_arcs, model->n_laws, model->laws, m);
+    if (s == FW_OK) s = fw_world_create(&w, model->structure_radius, m);
     if (s == FW_OK) s = fw_kernel_create(&k, &setup, m);
     if (s == FW_OK) s = add_floes(w, scene, &setup, m);
     if (s == FW_OK) {
-        wear.rule = scene->model.numerics.wear_rule;
+        wear.rule = model->numerics.wear_rule;
         wear.is_open = true;
         fw_world_open_ledger(w);
         s = simulate(k, w, &wear, scene->duration, tick, frames, out->floes, m);
-    }
-    if (s == FW_OK || s == FW_E_NUMERIC || s == FW_E_LIMIT) {
-        /* A failed scene still shows where it came to. */
-        fw_record *r = &out->record;
-        r->status = s;
-        if (m && s != FW_OK) snprintf(r->cause, sizeof r->cause, "%.*s", (int)sizeof r->cause - 1, m->text);
-        r->speed = scene->speed;
-        fw_wear_finish(&wear);
-        fw_outcome_fill(r, w, &wear, scene->duration);
-        r->host_cpu_s = fw_cpu_seconds() - cpu;
-        const fw_wear_sums *sum = &wear.sums[0];
-        double              rate = fw_abrasion_rate(&scene->model.laws[0], scene->temperature),
-               edge = pow(1e-6, wear.exponent[0]) * 1e-3 * rate;
-        out->path = sum->path;
-        out->depth_along_contact = sum->along * edge;
-        out->depth_x_wall = sum->x_wall * edge;
-        out->depth_impact = sum->impact * edge;
-        out->max_overlap = w->ledger.max_overlap;
-        out->n_floes = w->n_bodies;
-        floes_now(w, out->floes);
+        if (s == FW_OK || s == FW_E_NUMERIC || s == FW_E_LIMIT) fill(scene, w, &wear, out);
+        if (s == FW_OK) s = fw_verdict(&out->record, w, model->numerics.order ? INFINITY : setup.energy_tolerance, m);
     }
     fw_kernel_destroy(k);
     fw_world_destroy(w);
     fw_wear_free(&wear);
+    out->record.status = s;
+    return s;
+}
+
+fw_status fw_scene_run(const fw_scene *scene, const fw_tick *tick, const fw_frame_sink *frames, fw_scene_result *out,
+                       fw_msg *m)
+{
+    fw_msg own = {""};
+    if (!m) m = &own;
+    memset(out, 0, sizeof *out);
+    double fastest = 1, cpu = fw_cpu_seconds();
+    FW_TRY(check(scene, frames, &fastest, m));
+    fw_status s = fw_record_init(&out->record, scene->model.n_arcs, scene->model.n_laws, m);
+    if (s == FW_OK) s = fw_alloc(&out->floes, scene->n_floes, sizeof *out->floes, "floes", m);
+    if (s == FW_OK) s = run_once(scene, &scene->model, fastest, tick, frames, out, m);
+    out->record.tries = 1;
+    if (s == FW_E_NUMERIC && fw_outcome_may_be_cured(&out->record, &scene->model)) {
+        fw_model finer = fw_accuracy_finer(&scene->model);
+        fw_outcome_begin_again(&out->record, m);
+        s = run_once(scene, &finer, fastest, tick, frames, out, m);
+        out->record.tries = 2;
+    }
+    out->record.host_cpu_s = fw_cpu_seconds() - cpu;
+    if (s == FW_E_NUMERIC || s == FW_E_LIMIT) {
+        fw_msg said = *m;
+        fw_outcome_say(&out->record, m);
+        *m = said;
+    }
     if (s != FW_OK && s != FW_E_NUMERIC && s != FW_E_LIMIT) fw_scene_result_free(out);
     return s;
 }

@@ -37,7 +37,7 @@ fw_status fw_h5_create_dataset(const fw_h5_file *f, hid_t at, const char *name, 
                                const char *unit, const char *long_name, hid_t *dataset, fw_msg *m);
 hid_t     fw_h5_text_type(size_t n_bytes); /* fixed length, NUL-padded UTF-8; the caller closes; < 0 on error */
 
-/* Rows [first, first + n) of a dataset of any rank; a growing one is extended when need be. */
+/* Rows [first, first + n) of a dataset of any rank; a growing one ends with them. */
 fw_status fw_h5_write_rows(const fw_h5_file *f, hid_t dataset, hid_t memory_type, hsize_t first, hsize_t n,
                            const void *values, fw_msg *m);
 

@@ -169,7 +169,7 @@ fw_status fw_h5_write_rows(const fw_h5_file *f, hid_t dataset, hid_t memory_type
     hid_t space = H5Dget_space(dataset), memory = H5I_INVALID_HID;
     int   rank = space >= 0 ? H5Sget_simple_extent_dims(space, dims, most) : -1;
     bool  good = rank > 0 && rank <= 3;
-    if (good && most[0] == H5S_UNLIMITED && dims[0] < first + n) {
+    if (good && most[0] == H5S_UNLIMITED && dims[0] != first + n) {
         dims[0] = first + n;
         H5Sclose(space);
         good = H5Dset_extent(dataset, dims) >= 0;

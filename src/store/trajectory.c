@@ -147,6 +147,7 @@ static fw_status take_frame(void *self, double time, size_t n_floes, const fw_fl
     fw_trajectory *t = self;
     FW_CHECK(n_floes == t->n_floes, m, FW_E_ARG, "%s: a frame of %zu floes in a trajectory of %zu", t->file.path,
              n_floes, t->n_floes);
+    if (time == 0) t->n_written = t->n_held = 0; /* the run is repeated with finer steps */
     t->times[t->n_held] = time;
     for (int s = 0; s < N_STATES; s++) {
         for (size_t i = 0; i < n_floes; i++) t->values[s][t->n_held * n_floes + i] = get(&floes[i], states[s].offset);

@@ -14,7 +14,14 @@ double fw_ledger_momentum_relative(const fw_ledger *l)
 
 double fw_ledger_energy_truncation(const fw_ledger *l, double start, double end)
 {
-    double gone = l->dashpot + l->friction + l->dropped;
-    if (!(gone > 0)) return 0;
-    return fabs(start + l->inflow + l->drag_work - gone - l->outflow - end) / gone;
+    double gone = l->dashpot + l->friction + l->dropped, through = fmax(gone, l->into_springs);
+    if (!(through > 0)) return 0;
+    return fabs(start + l->inflow + l->drag_work - gone - l->outflow - end) / through;
 }
+
+double fw_ledger_floes_lost(const fw_ledger *l, double n_now)
+{
+    return fabs(l->floes_start + l->floes_in - l->floes_out - n_now);
+}
+
+double fw_ledger_chatter(const fw_ledger *l) { return l->wall_steps > 0 ? l->chatter / l->wall_steps : 0; }

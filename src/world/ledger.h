@@ -11,6 +11,9 @@ typedef struct fw_ledger {
     double drag_work;                  /* quadrature of drag power over steps, and the exact change in free flight */
     double inflow, outflow;            /* kinetic and stored energy of floes that entered or left the awake set */
     double dashpot, friction, dropped; /* dissipated; dropped: spring energy lost where tension is refused */
+    double into_springs;               /* what went into springs: contacts without a dashpot dissipate nothing */
+    /* floes: everyone who came is here or has left */
+    double floes_start, floes_in, floes_out;
     /* momentum [N s] */
     double momentum_error; /* sum over steps of |m dv - impulses| */
     double momentum_size;  /* sum of |impulses| */
@@ -19,6 +22,10 @@ typedef struct fw_ledger {
     double peak_force;     /* [N] */
     double contact_time;   /* [s] with a force */
     double hits;           /* first touches after 1 s apart */
+    /* what the watch-dogs saw */
+    double refined;           /* steps repeated for one of them, finer */
+    double chatter, wall_steps; /* steps in which slip jumped from cap to cap once more; steps on the structure */
+    double late_overlap;      /* largest one found before its touch, over the smaller radius */
     /* range of the rigid-disc picture */
     double max_overlap;       /* [m] */
     double max_overlap_share; /* over the smaller radius */
@@ -33,8 +40,13 @@ typedef struct fw_ledger {
 
 double fw_ledger_energy_relative(const fw_ledger *l);
 double fw_ledger_momentum_relative(const fw_ledger *l);
-/* Balance of the trajectory: start + inflow + drag = dissipated + outflow + end, relative to what was dissipated.
+/* Balance of the trajectory: start + inflow + drag = dissipated + outflow + end, relative to what was dissipated or, where that is more, went
+ * through springs.
  * start, end: kinetic plus stored energy of the awake floes [J]. */
 double fw_ledger_energy_truncation(const fw_ledger *l, double start, double end);
+/* Floes that nobody can account for; n_now: awake ones. */
+double fw_ledger_floes_lost(const fw_ledger *l, double n_now);
+/* Share of the steps on the structure in which slip chattered. */
+double fw_ledger_chatter(const fw_ledger *l);
 
 #endif

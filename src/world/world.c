@@ -48,6 +48,7 @@ fw_status fw_world_add_body(fw_world *w, const fw_body *proto, fw_msg *m)
     b->x_listed = b->x - w->drift, b->y_listed = b->y;
     w->max_radius = fmax(w->max_radius, b->radius);
     w->ledger.inflow += kinetic(b);
+    w->ledger.floes_in++;
     return FW_OK;
 }
 
@@ -113,6 +114,7 @@ void fw_world_forget(fw_world *w, const bool *is_gone)
     for (size_t i = 0; i < w->n_bodies; i++) {
         if (is_gone[i]) {
             w->ledger.outflow += kinetic(&w->bodies[i]);
+            w->ledger.floes_out++;
             continue;
         }
         if (next != i) {
@@ -148,4 +150,5 @@ void fw_world_open_ledger(fw_world *w)
 {
     memset(&w->ledger, 0, sizeof w->ledger);
     w->energy_start = fw_world_energy(w);
+    w->ledger.floes_start = (double)w->n_bodies;
 }

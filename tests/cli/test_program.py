@@ -75,8 +75,8 @@ class Program(unittest.TestCase):
 
     def test_failed_scene(self):
         done = self.call("scene", "thrown.yaml", "--json", code=3)
-        self.assertIn("inside the structure", done.stderr)
-        self.assertIn("inside the structure", json.loads(done.stdout)["cause"])
+        self.assertIn("a whole radius", done.stderr)
+        self.assertIn("a whole radius", json.loads(done.stdout)["cause"])
 
     def test_locked_rotation(self):
         """A floe that cannot roll slides all the way: by the reference solutions 3 to 43 times the wear."""

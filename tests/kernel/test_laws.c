@@ -17,7 +17,7 @@ static fw_setup setup(void)
                       .has_friction = true,
                       .ice_density = 900,
                       .method = FW_METHOD_TRBDF2,
-                      .tolerance = 1e-5,
+                      .tolerance = 1e-5, .energy_tolerance = 0.01,
                       .velocity_scale = 2,
                       .first_step = 0.05,
                       .growth = 3,

@@ -29,7 +29,7 @@ static fw_setup setup(double zeta, double mu, double slip_ratio)
                       .ice_density = 900,
                       .method = FW_METHOD_ARK3,
                       .is_lone_exact = true,
-                      .tolerance = 1e-6,
+                      .tolerance = 1e-6, .energy_tolerance = 0.01,
                       .velocity_scale = 2,
                       .first_step = 0.02,
                       .growth = 3,

@@ -1,0 +1,86 @@
+#include "realisation/window.h"
+
+#include "realisation/accuracy.h"
+#include "realisation/cost.h"
+
+/* Of the plain method: the paper's area reaches 60 m upstream. */
+static const double PLAIN_INLET = -60;
+
+static fw_ice_need ice_need(const fw_window_run *r)
+{
+    fw_ice_need n = {.low = -r->setup.half_width, .high = r->setup.half_width};
+    if (r->plain)
+        n.from = fw_plain_needs_ice_from(r->plain, r->world);
+    else
+        fw_kernel_needs_ice(r->kernel, r->world, &n.from, &n.low, &n.high);
+    return n;
+}
+
+static fw_status lay(fw_window_run *r, const fw_scenario *sc, fw_msg *m)
+{
+    fw_field_settings f = {.seed = sc->seed,
+                           .id = sc->id,
+                           .concentration = sc->concentration,
+                           .mix = &r->model->mixes[sc->mix],
+                           .size_law = r->model->size_law,
+                           .size_a = r->model->size_a,
+                           .size_b = r->model->size_b};
+    FW_TRY(fw_world_create(&r->world, r->model->structure_radius, m));
+    if (r->model->numerics.scheme != FW_SCHEME_EVENTS)
+        FW_TRY(fw_plain_create(&r->plain, &r->setup, &r->model->numerics, PLAIN_INLET, m));
+    else
+        FW_TRY(fw_kernel_create(&r->kernel, &r->setup, m));
+    return fw_ice_lay(&r->ice, &f, r->world, r->setup.half_width, r->setup.downstream,
+                      sc->speed * fw_accuracy_warm_up(r->model, sc->speed), m);
+}
+
+/* How many floes are awake, and how far the jam has grown against the current. */
+static void note_extent(fw_world *w)
+{
+    fw_ledger *l = &w->ledger;
+    if ((double)w->n_bodies > l->awake_floes) l->awake_floes = (double)w->n_bodies;
+    for (size_t i = 0; i < w->n_bodies; i++)
+        if (-w->bodies[i].x > l->reach) l->reach = -w->bodies[i].x;
+}
+
+fw_status fw_window_go(fw_window_run *r, double t_end, double t_all, const fw_tick *tick, fw_status *stopped, fw_msg *m)
+{
+    fw_world *w = r->world;
+    double    told = w->ledger.force_evaluations;
+    for (size_t quiet = 1; w->t < t_end; quiet++) {
+        fw_ice_need need = ice_need(r);
+        FW_TRY(fw_ice_feed(&r->ice, w, &need, m));
+        if (r->plain)
+            FW_TRY(fw_plain_step(r->plain, w, &r->wear, t_end, m));
+        else
+            FW_TRY(fw_kernel_step(r->kernel, w, &r->wear, t_end, m));
+        note_extent(w);
+        /* Less than a millisecond of work, so that messages of other ranks get on. */
+        if (tick && (quiet % 64 == 0 || w->ledger.force_evaluations - told > 5e3)) {
+            told = w->ledger.force_evaluations;
+            *stopped = tick->call(tick->self, w->t / t_all);
+            if (*stopped != FW_OK) return *stopped;
+        }
+    }
+    return FW_OK;
+}
+
+fw_status fw_window_open(fw_window_run *r, const fw_model *model, const fw_scenario *sc, fw_msg *m)
+{
+    *r = (fw_window_run){.model = model};
+    fw_accuracy_setup(&r->setup, model, sc->speed, sc->speed);
+    FW_TRY(fw_cost_limit(model, sc, &r->setup.max_evaluations, m));
+    FW_TRY(fw_wear_init(&r->wear, model->structure_radius, model->n_arcs, model->n_laws, model->laws, m));
+    FW_TRY(lay(r, sc, m));
+    fw_world_open_ledger(r->world);
+    return FW_OK;
+}
+
+void fw_window_close(fw_window_run *r)
+{
+    fw_kernel_destroy(r->kernel);
+    fw_plain_destroy(r->plain);
+    fw_world_destroy(r->world);
+    fw_ice_free(&r->ice);
+    fw_wear_free(&r->wear);
+}

@@ -1,0 +1,27 @@
+/* Inside realisation: a window while it runs, from its first ice to the instant that one asks for. */
+#ifndef FW_REALISATION_WINDOW_H
+#define FW_REALISATION_WINDOW_H
+
+#include "abrasion/wear.h"
+#include "floewear/realisation.h"
+#include "kernel/kernel.h"
+#include "kernel/plain.h"
+#include "realisation/ice.h"
+
+typedef struct fw_window_run {
+    const fw_model *model;
+    fw_setup        setup;
+    fw_ice          ice;
+    fw_world       *world;
+    fw_kernel      *kernel;
+    fw_plain       *plain; /* instead of kernel, for benchmarks */
+    fw_wear         wear;
+} fw_window_run;
+
+/* Ice round the structure, an open ledger, no wear collected yet. fw_window_close also after an error. */
+fw_status fw_window_open(fw_window_run *r, const fw_model *model, const fw_scenario *sc, fw_msg *m);
+/* To t_end, where all floes stand at the same instant; the tick is told the share of t_all. *stopped: what the tick said. */
+fw_status fw_window_go(fw_window_run *r, double t_end, double t_all, const fw_tick *tick, fw_status *stopped, fw_msg *m);
+void      fw_window_close(fw_window_run *r);
+
+#endif
