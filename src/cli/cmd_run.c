@@ -16,6 +16,7 @@
 #include "cli/choice.h"
 #include "cli/commands.h"
 #include "cli/config.h"
+#include "cli/failed_scene.h"
 #include "cli/output.h"
 #include "cli/progress_line.h"
 #include "cli/record_print.h"
@@ -26,10 +27,10 @@ typedef struct run_arguments {
     fw_campaign_arguments of; /* the campaign */
     const char           *out, *accuracy_from;
     int64_t               only_id; /* < 0: the whole campaign */
-    bool                  is_fresh, is_quiet, is_json;
+    bool                  is_fresh, is_quiet, is_json, runs_failed_again;
 } run_arguments;
 
-enum { KEY_FRESH = 256, KEY_JSON, KEY_ONLY_ID, KEY_ACCURACY };
+enum { KEY_FRESH = 256, KEY_RERUN, KEY_JSON, KEY_ONLY_ID, KEY_ACCURACY };
 
 static const struct argp_option run_options[] = {
     {"output", 'o', "OUT", 0, "write OUT.journal and OUT.h5 (default: the campaign's name, in the current folder)", 0},
@@ -37,10 +38,11 @@ static const struct argp_option run_options[] = {
     FW_OPTION_SEED,
     {"time-budget", FW_KEY_BUDGET, "TIME", 0, "stop in good order after this much wall-clock time, as in 2h or 90min", 0},
     {"fresh", KEY_FRESH, NULL, 0, "start anew; an old journal is kept as OUT.journal.old", 0},
+    {"rerun-failed", KEY_RERUN, NULL, 0, "run those of the journal again that failed", 0},
     {"accuracy-from", KEY_ACCURACY, "FILE", 0, "numerics chosen by floewear accuracy (default: OUT.accuracy.h5, if it is there)", 0},
     {"quiet", 'q', NULL, 0, "no progress on stderr", 0},
     {"json", KEY_JSON, NULL, 0, "results as JSON instead of tables", 0},
-    {"only-id", KEY_ONLY_ID, "N", 0, "run realisation N alone, print its record, write nothing", 0},
+    {"only-id", KEY_ONLY_ID, "N", 0, "run realisation N alone and print its record; nothing is written but, if it fails, OUT.failed-N.yaml, a scene that fails too", 0},
     {0}};
 
 static const char run_doc[] =
@@ -57,6 +59,7 @@ static error_t run_parse(int key, char *text, struct argp_state *state)
     case 'q': a->is_quiet = true; return 0;
     case KEY_ACCURACY: a->accuracy_from = text; return 0;
     case KEY_FRESH: a->is_fresh = true; return 0;
+    case KEY_RERUN: a->runs_failed_again = true; return 0;
     case KEY_JSON: a->is_json = true; return 0;
     case KEY_ONLY_ID:
         if (fw_argument_number(text, &a->only_id)) return 0;
@@ -146,19 +149,23 @@ static fw_status run_look(void *self, uint64_t n, bool *is_enough, fw_msg *m)
 static void run_list_failures(run_session *s, uint64_t n)
 {
     const fw_model *model  = &s->campaign->model;
-    uint64_t        n_told = 0, n_failed = 0;
+    uint64_t        n_told = 0, n_failed = 0, n_cured = 0;
     fw_record       r = {.id = 0};
     fw_msg          m;
 
     if (fw_record_init(&r, model->n_arcs, model->n_laws, &m) != FW_OK) return;
     for (uint64_t id = 0; id < n; id++) {
-        if (fw_journal_read(s->files.journal, id, &r, &m) != FW_OK || r.status == FW_OK) continue;
+        if (fw_journal_read(s->files.journal, id, &r, &m) != FW_OK) continue;
+        if (r.status == FW_OK && r.tries > 1 && n_cured++ < 3)
+            fprintf(stderr, "cured by finer steps: id %" PRIu64 ": %s\n", id, r.cause);
+        if (r.status == FW_OK) continue;
         n_failed++;
         if (n_told++ < 10) {
             fprintf(stderr, "failed: id %" PRIu64 " (seed %" PRIu64 "): %s; --only-id %" PRIu64 " runs it again\n", id,
                     s->campaign->seed, r.cause, id);
         }
     }
+    if (n_cured > 3) fprintf(stderr, "cured by finer steps: %" PRIu64 " in all\n", n_cured);
     if (n_failed > 10) fprintf(stderr, "failed: %" PRIu64 " more\n", n_failed - 10);
     fw_record_free(&r);
 }
@@ -223,7 +230,7 @@ static fw_status run_campaign(run_session *s, const run_arguments *a, fw_msg *m)
     status = fw_campaign_run(&run, &result, m);
     fw_progress_line_end(&s->line);
 
-    if (result.n_failed) run_list_failures(s, result.n_prefix);
+    if (!a->is_quiet || result.n_failed) run_list_failures(s, result.n_prefix);
     if (status != FW_OK && status != FW_E_STOPPED && status != FW_E_FAILURES) return status;
     if (result.n_prefix > 0) {
         written = run_answer(s, result.n_prefix, a, &later);
@@ -241,7 +248,7 @@ static fw_status run_campaign(run_session *s, const run_arguments *a, fw_msg *m)
         fw_fail(m, status, "more than %" PRIu64 " (precision.max_failed) of the first %" PRIu64 " realisations failed",
                 c->precision.max_failed, result.n_prefix);
     }
-    if (written != FW_OK) {
+    if (written != FW_OK && written != FW_E_FAILURES) { /* that there is no answer then is no news */
         *m = later;
         return written;
     }
@@ -253,20 +260,42 @@ static fw_status run_campaign(run_session *s, const run_arguments *a, fw_msg *m)
 typedef struct run_printer {
     const fw_campaign *campaign;
     bool               is_json;
-    fw_status          status; /* of the realisation */
+    fw_status          status;    /* of the realisation */
+    double             failed_at; /* [s] */
+    char               cause[200];
 } run_printer;
 
 static fw_status run_print_record(void *self, const fw_record *r, fw_msg *m)
 {
     run_printer *p = self;
 
-    p->status = r->status;
+    p->status = r->status, p->failed_at = r->failed_at;
+    memcpy(p->cause, r->cause, sizeof p->cause);
     if (p->is_json) {
         fw_record_print_json(stdout, p->campaign, r);
     } else {
         fw_record_print_text(stdout, r);
     }
     return fw_output_finish(m);
+}
+
+/* A failure that happens without its history is worth more as a scene: seconds instead of hours. */
+static fw_status run_show_alone(const run_printer *p, const run_arguments *a, fw_msg *m)
+{
+    fw_record r = {.id = (uint64_t)a->only_id, .failed_at = p->failed_at};
+    char      path[4200];
+    bool      is_written = false;
+
+    if (p->status != FW_E_NUMERIC) return FW_OK;
+    memcpy(r.cause, p->cause, sizeof r.cause);
+    snprintf(path, sizeof path, "%.4000s.failed-%" PRId64 ".yaml", a->out ? a->out : p->campaign->name, a->only_id);
+    FW_TRY(fw_failed_scene_write(p->campaign, &r, path, &is_written, m));
+    if (is_written) {
+        fprintf(stderr, "it fails alone too: floewear scene %s\n", path);
+    } else {
+        fprintf(stderr, "no scene file: it does not fail without what went before\n");
+    }
+    return FW_OK;
 }
 
 static fw_status run_only(const fw_campaign *c, const run_arguments *a, fw_msg *m)
@@ -279,7 +308,8 @@ static fw_status run_only(const fw_campaign *c, const run_arguments *a, fw_msg *
 
     FW_TRY(fw_campaign_run(&run, &result, m));
     if (printer.status != FW_OK) {
-        return fw_fail(m, printer.status, "realisation %" PRId64 " failed", a->only_id);
+        FW_TRY(run_show_alone(&printer, a, m));
+        return fw_fail(m, printer.status, "realisation %" PRId64 " failed: %s", a->only_id, printer.cause);
     }
     return FW_OK;
 }
@@ -317,7 +347,7 @@ static fw_status run_lead(const run_arguments *a, fw_msg *m)
         fw_campaign_free(&c);
         return status;
     }
-    status = fw_run_files_open(&s.files, &c, a->out, a->is_fresh, m);
+    status = fw_run_files_open(&s.files, &c, a->out, a->is_fresh, a->runs_failed_again, m);
     if (status == FW_OK) {
         status = run_campaign(&s, a, m);
     } else {

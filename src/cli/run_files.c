@@ -74,20 +74,22 @@ static fw_status files_check_results(const fw_run_files *f, bool is_fresh, fw_ms
     return FW_OK;
 }
 
-/* What the journal holds: it may append while the campaign goes on, so ids are copied. */
-static fw_status files_index(fw_run_files *f, fw_msg *m)
+/* What the journal holds: it may append while the campaign goes on, so ids are copied. Failed ones are left out when they are to run again. */
+static fw_status files_index(fw_run_files *f, bool runs_failed_again, fw_msg *m)
 {
     const fw_model *model = &f->campaign->model;
-    const uint64_t *ids   = fw_journal_ids(f->journal, &f->n_have);
+    size_t          n;
+    const uint64_t *ids   = fw_journal_ids(f->journal, &n);
     fw_record       r     = {.id = 0};
     fw_status       s;
 
-    FW_TRY(fw_alloc(&f->have, f->n_have, sizeof *f->have, "ids of the journal", m));
-    if (f->n_have) memcpy(f->have, ids, f->n_have * sizeof *ids);
+    FW_TRY(fw_alloc(&f->have, n, sizeof *f->have, "ids of the journal", m));
     s = fw_record_init(&r, model->n_arcs, model->n_laws, m);
-    for (size_t i = 0; i < f->n_have && s == FW_OK; i++) {
-        s = fw_journal_read(f->journal, f->have[i], &r, m);
-        if (s != FW_OK || r.status == FW_OK) continue;
+    for (size_t i = 0; i < n && s == FW_OK; i++) {
+        s = fw_journal_read(f->journal, ids[i], &r, m);
+        if (s != FW_OK || (r.status != FW_OK && runs_failed_again)) continue;
+        f->have[f->n_have++] = ids[i];
+        if (r.status == FW_OK) continue;
         s = fw_grow(&f->have_failed, &f->failed_capacity, f->n_have_failed + 1, sizeof *f->have_failed, "failed ids",
                     m);
         if (s == FW_OK) f->have_failed[f->n_have_failed++] = r.id;
@@ -96,14 +98,14 @@ static fw_status files_index(fw_run_files *f, fw_msg *m)
     return s;
 }
 
-fw_status fw_run_files_open(fw_run_files *f, const fw_campaign *c, const char *out, bool is_fresh, fw_msg *m)
+fw_status fw_run_files_open(fw_run_files *f, const fw_campaign *c, const char *out, bool is_fresh, bool runs_failed_again, fw_msg *m)
 {
     *f = (fw_run_files){.campaign = c};
     FW_TRY(files_name(f, out ? out : c->name, m));
     FW_TRY(files_check_folder(f->journal_path, m));
     FW_TRY(files_check_results(f, is_fresh, m));
     FW_TRY(fw_journal_open(&f->journal, f->journal_path, c, is_fresh, m));
-    return files_index(f, m);
+    return files_index(f, runs_failed_again, m);
 }
 
 fw_status fw_run_files_close(fw_run_files *f, fw_msg *m)

@@ -22,8 +22,9 @@ typedef struct fw_run_files {
 /* out: the stem or the .h5 file; NULL: the campaign's name in the current folder. Opens the journal and reads what
  * it has. Refused, with nothing touched: a folder that is missing (FW_E_IO), a results file that is no results file
  * of ours (FW_E_FORMAT) or belongs to another campaign (FW_E_MISMATCH, unless is_fresh), whatever fw_journal_open
- * refuses. */
-fw_status fw_run_files_open(fw_run_files *f, const fw_campaign *c, const char *out, bool is_fresh, fw_msg *m);
+ * refuses. runs_failed_again: those that failed are not among those that it has. */
+fw_status fw_run_files_open(fw_run_files *f, const fw_campaign *c, const char *out, bool is_fresh,
+                            bool runs_failed_again, fw_msg *m);
 fw_status fw_run_files_close(fw_run_files *f, fw_msg *m); /* a zeroed or half-opened struct is fine */
 
 fw_sink          fw_run_files_sink(fw_run_files *f);

@@ -106,15 +106,18 @@ static fw_status reserve(fw_journal *j, size_t n, fw_msg *m)
     return fw_grow(&j->blocks, &j->blocks_capacity, n, sizeof *j->blocks, "index of a journal", m);
 }
 
-/* Of two records of one id the first counts, if the second says the same. */
-static fw_status check_twice(fw_journal *j, entry first, entry second, fw_msg *m)
+/* Of two records of one id the first counts, if the second says the same. One that failed gives way to a second: it was run again by a
+ * program that can do better. */
+static fw_status which_counts(fw_journal *j, entry first, entry second, bool *is_second, fw_msg *m)
 {
     const unsigned char *block = NULL;
     FW_TRY(load_block(j, first.block, &block, m));
     FW_TRY(fw_journal_block_read(block, j->block_size, &j->one, m));
     FW_TRY(load_block(j, second.block, &block, m));
     FW_TRY(fw_journal_block_read(block, j->block_size, &j->other, m));
-    FW_CHECK(fw_journal_has_same_bits(&j->one, &j->other), m, FW_E_FORMAT,
+    bool is_same = fw_journal_has_same_bits(&j->one, &j->other);
+    *is_second = !is_same && j->one.status != FW_OK;
+    FW_CHECK(is_same || *is_second, m, FW_E_FORMAT,
              "%s: realisation %" PRIu64 " is there twice with different results (records number %" PRIu64
              " and %" PRIu64 ")",
              j->path, first.id, first.block + 1, second.block + 1);
@@ -127,13 +130,14 @@ static fw_status build_index(fw_journal *j, entry *entries, size_t n, fw_msg *m)
     for (size_t i = 1; i < n && is_sorted; i++) is_sorted = entries[i - 1].id < entries[i].id;
     if (!is_sorted) qsort(entries, n, sizeof *entries, compare_entries);
     FW_TRY(reserve(j, n, m));
-    size_t first = 0; /* of the entries with one id */
     for (size_t i = 0; i < n; i++) {
-        if (i > 0 && entries[i].id == entries[first].id) {
-            FW_TRY(check_twice(j, entries[first], entries[i], m));
+        if (j->n > 0 && entries[i].id == j->ids[j->n - 1]) {
+            bool  is_second;
+            entry first = {.id = entries[i].id, .block = j->blocks[j->n - 1]};
+            FW_TRY(which_counts(j, first, entries[i], &is_second, m));
+            if (is_second) j->blocks[j->n - 1] = entries[i].block;
             continue;
         }
-        first = i;
         j->ids[j->n] = entries[i].id;
         j->blocks[j->n++] = entries[i].block;
     }
@@ -373,7 +377,12 @@ fw_status fw_journal_append(fw_journal *j, const fw_record *r, fw_msg *m)
     size_t at = find(j, r->id);
     entry new = {.id = r->id, .block = j->n_committed + j->n_buffered};
     if (at < j->n && j->ids[at] == r->id) {
-        return check_twice(j, (entry){.id = r->id, .block = j->blocks[at]}, new, m);
+        bool is_second;
+        FW_TRY(which_counts(j, (entry){.id = r->id, .block = j->blocks[at]}, new, &is_second, m));
+        if (!is_second) return FW_OK;
+        j->blocks[at] = new.block;
+        j->n_buffered++;
+        return j->n_buffered == MAX_COMMIT ? fw_journal_flush(j, m) : FW_OK;
     }
     FW_TRY(reserve(j, j->n + 1, m));
     memmove(j->ids + at + 1, j->ids + at, (j->n - at) * sizeof *j->ids);

@@ -1,7 +1,7 @@
 /* The journal: append-only truth of a campaign, and what resume starts from.
  *
  * A header names the campaign (hash, settings, sizes); then one block per record: length, status, id, packed record,
- * CRC32C. The bytes are described in journal_format.h. Records arrive in any order; each id counts once.
+ * CRC32C. The bytes are described in journal_format.h. Records arrive in any order; each id counts once. A failed one may be followed by a later try, which counts then.
  *
  *   append --> buffer --(100 records, or flush)--> one write + fdatasync --> on disk
  *
@@ -33,8 +33,8 @@ fw_status fw_journal_open(fw_journal **out, const char *path, const fw_campaign 
 fw_status fw_journal_open_read(fw_journal **out, const char *path, const fw_campaign *c, fw_msg *m);
 
 /* Copies r into the buffer; commits by itself after 100 records. A record that is already there is ignored when it has
- * the same bits (everything but the columns with host, cpu or wall in their names), else FW_E_FORMAT: a record that is
- * not a pure function of campaign and id is a fault to be seen. FW_E_ARG: other sizes than the campaign's. */
+ * the same bits (everything but the columns with host, cpu or wall in their names). One that failed is replaced by another result (the later
+ * record counts from then on). Else FW_E_FORMAT: a record that is not a pure function of campaign and id is a fault to be seen. FW_E_ARG: other sizes than the campaign's. */
 fw_status fw_journal_append(fw_journal *j, const fw_record *r, fw_msg *m);
 fw_status fw_journal_flush(fw_journal *j, fw_msg *m);
 fw_status fw_journal_close(fw_journal *j, fw_msg *m); /* flushes; NULL is fine; frees even on error */

@@ -1,0 +1,103 @@
+#include "cli/failed_scene.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/config.h"
+#include "effects/effects.h"
+
+/* How long before the failure the scene begins [m of the current's way]: the first at which no two floes overlap (a scene starts without a
+ * history of contacts) and which fails. */
+static const double BEFORE[] = {0.5, 2, 5, 10, 20, 40};
+/* It goes on beyond the failure by this way [m]: two listings of the kernel. */
+static const double AFTER = 15;
+
+static void put_effects(FILE *f, const fw_model *m)
+{
+    const fw_effect *e;
+    size_t           n = fw_effects_list(&e), k = 0;
+    fprintf(f, "effects: [");
+    for (size_t i = 0; i < n; i++)
+        if (m->effects & (uint32_t)e[i].bit) fprintf(f, "%s%s", k++ ? ", " : "", e[i].name);
+    fprintf(f, "]\n");
+}
+
+static void put_laws(FILE *f, const fw_model *m)
+{
+    fprintf(f, "abrasion:\n  laws:\n");
+    for (size_t i = 0; i < m->n_laws; i++) {
+        const fw_abrasion_law *l = &m->laws[i];
+        if (strcmp(l->name, "power") == 0)
+            fprintf(f, "    - {power: {coefficient: %.17g mm/km, exponent: %.17g, uses_temperature: %s}}\n", l->coefficient, l->exponent,
+                    l->uses_temperature ? "true" : "false");
+        else if (strcmp(l->name, "archard") == 0)
+            fprintf(f, "    - {archard: {coefficient: %.17g mm/km}}\n", l->coefficient);
+        else
+            fprintf(f, "    - %s\n", l->name);
+    }
+}
+
+static fw_status put(const fw_scene *s, const fw_campaign *c, const fw_record *r, double from, const char *path, fw_msg *m)
+{
+    const fw_model *k = &s->model;
+    FILE           *f = fopen(path, "w");
+    FW_CHECK(f, m, FW_E_IO, "%s: %s", path, strerror(errno));
+    fprintf(f, "# Realisation %" PRIu64 " of %s (seed %" PRIu64 ") from %.6g s on, warm-up included.\n# It failed: %s\n", r->id, c->name, c->seed,
+            from, r->cause);
+    fprintf(f, "structure: {diameter: %.17g m}\nice: {density: %.17g kg/m3}\ncurrent: {speed: %.17g m/s}\n", 2 * k->structure_radius,
+            k->ice_density, s->speed);
+    fprintf(f, "contact: {stiffness: %.17g N/m, damping_ratio: %.17g, friction: %.17g, slip_damping_ratio: %.17g}\n", k->stiffness,
+            k->damping_ratio, k->friction, k->slip_damping_ratio);
+    fprintf(f, "water: {density: %.17g kg/m3, form_drag: %.17g}\n", k->water_density, k->form_drag);
+    put_effects(f, k);
+    put_laws(f, k);
+    fprintf(f, "ring: {arcs: %zu}\naccuracy: %.17g\nduration: %.17g s\nfloes:\n", k->n_arcs, k->accuracy, s->duration);
+    for (size_t i = 0; i < s->n_floes; i++) {
+        const fw_floe *b = &s->floes[i];
+        fprintf(f, "  - {x: %.17g m, y: %.17g m, diameter: %.17g m, thickness: %.17g m, vx: %.17g m/s, vy: %.17g m/s, spin: %.17g rad/s}\n", b->x,
+                b->y, b->diameter, b->thickness, b->vx, b->vy, b->spin);
+    }
+    bool is_good = !ferror(f);
+    is_good = fclose(f) == 0 && is_good;
+    FW_CHECK(is_good, m, FW_E_IO, "%s: %s", path, strerror(errno));
+    return FW_OK;
+}
+
+/* Does the file fail? Read as a user's program reads it: it refuses floes that overlap at the start. */
+static bool fails(const char *path)
+{
+    fw_scene        s;
+    fw_scene_result out = {0};
+    fw_msg          m = {""};
+    if (fw_config_scene(&s, path, 0, NULL, &m) != FW_OK) return false;
+    fw_status status = fw_scene_run(&s, NULL, NULL, &out, &m);
+    fw_scene_result_free(&out);
+    fw_scene_free(&s);
+    return status == FW_E_NUMERIC;
+}
+
+fw_status fw_failed_scene_write(const fw_campaign *c, const fw_record *r, const char *path, bool *is_written, fw_msg *m)
+{
+    fw_scenario sc;
+    *is_written = false;
+    fw_campaign_scenario(c, r->id, &sc);
+    for (size_t i = 0; i < sizeof BEFORE / sizeof BEFORE[0]; i++) {
+        fw_scene  s;
+        double    from = r->failed_at - BEFORE[i] / sc.speed;
+        fw_status status;
+        if (!(from > 0)) break;
+        status = fw_realise_excerpt(&c->model, &sc, from, (BEFORE[i] + AFTER) / sc.speed, NULL, &s, m);
+        if (status == FW_E_NUMERIC || status == FW_E_LIMIT) continue; /* as it happens another step of the time is cut now */
+        FW_TRY(status);
+        status = put(&s, c, r, from, path, m);
+        fw_scene_free(&s);
+        *is_written = status == FW_OK && fails(path);
+        if (*is_written) return FW_OK;
+        unlink(path);
+        FW_TRY(status);
+    }
+    return FW_OK;
+}
