@@ -327,9 +327,10 @@ static void take_force_back(fw_cluster *c, const fw_pair *p, size_t last)
     b->k[0][FW_VX] += fx * b->own_inv_mass, b->k[0][FW_VY] += fy * b->own_inv_mass, b->k[0][FW_SPIN] += f * b->turn;
 }
 
-static fw_status watch_overlap(const fw_cluster *c, const fw_books *books, const fw_pair *p, size_t last, fw_msg *msg)
+static fw_status watch_contact(const fw_cluster *c, const fw_books *books, const fw_pair *p, size_t last, fw_msg *msg)
 {
     const fw_body *bodies = books->world->bodies;
+    if (!fw_lone_is(c, books)) FW_TRY(fw_watch_law(&bodies[c->members[p->a].index], p, last + 1, c->t0, msg));
     return fw_watch_overlap(books->setup, &bodies[c->members[p->a].index], p->b == FW_WALL ? NULL : &bodies[c->members[p->b].index],
                             p->depth[last], c->t0, msg);
 }
@@ -345,7 +346,7 @@ static fw_status let_go(fw_cluster *c, const fw_books *books, int32_t *opened, s
             body->t_wall = c->t0;
             FW_TRY(fw_watch_body(books->setup, body, msg));
         }
-        FW_TRY(watch_overlap(c, books, p, last, msg));
+        FW_TRY(watch_contact(c, books, p, last, msg));
         /* Apart, and no force; or none when the step began: then what the dashpot says of rims that come back is no force yet. */
         if (p->depth[last] < 0 && (p->normal[last] <= 0 || p->normal[0] <= 0)) {
             opened[(*n_opened)++] = p->candidate;

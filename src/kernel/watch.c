@@ -74,6 +74,17 @@ fw_status fw_watch_overlap(const fw_setup *set, const fw_body *b, const fw_body 
                    (unsigned long long)b->name, 2 * b->radius, b->thickness, with, depth, t);
 }
 
+fw_status fw_watch_law(const fw_body *b, const fw_pair *p, size_t n_stages, double t, fw_msg *m)
+{
+    for (size_t s = 1; s < n_stages; s++) {
+        double n = p->normal[s], f = fabs(p->friction[s]);
+        FW_CHECK(n >= 0 && f <= p->law.mu * n * (1 + 1e-9), m, FW_E_NUMERIC,
+                 "floe %llu (D %.3g m, h %.2g m) feels %.3g N of tension or friction beyond its cap, at t = %.6g s", (unsigned long long)b->name,
+                 2 * b->radius, b->thickness, fw_larger(-n, f - p->law.mu * n), t);
+    }
+    return FW_OK;
+}
+
 fw_status fw_watch_late(const fw_setup *set, fw_ledger *l, const fw_body *b, double other_radius, double depth, double t, fw_msg *m)
 {
     double share = depth / fw_smaller(b->radius, other_radius > 0 ? other_radius : set->structure_radius);

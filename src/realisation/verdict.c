@@ -27,6 +27,7 @@ fw_status fw_verdict(const fw_record *r, const fw_world *w, double energy_tolera
         {"energy bookkeeping (impulses times mean velocities against the change of kinetic energy)", r->energy_relative, BOOKS},
         {"momentum bookkeeping (impulses against the change of momentum)", r->momentum_relative, BOOKS},
         {"wear load on the ring against the patch integral", r->wear_conservation, BOOKS},
+        {"energy given by friction or dashpots", fw_ledger_energy_given(&w->ledger), BOOKS},
         {"slip chatter, share of the steps on the structure", r->slip_chatter, CHATTER},
         {"energy balance of the trajectory", r->energy_truncation, energy_tolerance},
     };

@@ -44,6 +44,8 @@ double fw_ledger_momentum_relative(const fw_ledger *l);
  * through springs.
  * start, end: kinetic plus stored energy of the awake floes [J]. */
 double fw_ledger_energy_truncation(const fw_ledger *l, double start, double end);
+/* What friction and dashpots gave instead of took, relative to the same; sums over all contacts. */
+double fw_ledger_energy_given(const fw_ledger *l);
 /* Floes that nobody can account for; n_now: awake ones. */
 double fw_ledger_floes_lost(const fw_ledger *l, double n_now);
 /* Share of the steps on the structure in which slip chattered. */

@@ -373,6 +373,48 @@ static void test_one_id_twice(void **state)
     fw_record_free(&r);
 }
 
+/* A failed realisation that was run again with another outcome: the later one counts, also after a kill and for who reads only. */
+static void test_failed_one_run_again(void **state)
+{
+    (void)state;
+    fw_campaign c = help_campaign(N_ARCS, N_LAWS);
+    fw_journal *j;
+    fw_record   good, r;
+    size_t      n;
+    remove_all("f.journal");
+    assert_ok(fw_record_init(&good, N_ARCS, N_LAWS, &msg));
+    assert_ok(fw_record_init(&r, N_ARCS, N_LAWS, &msg));
+    help_fill(&good, 100), good.id = 6; /* 6 fails in help_fill, 100 does not */
+    assert_ok(fw_journal_open(&j, "f.journal", &c, false, &msg));
+    append_range(j, 0, 8);
+    append(j, (const uint64_t[]){6}, 1); /* the same failure again: nothing new */
+    assert_ok(fw_journal_append(j, &good, &msg));
+    assert_ok(fw_journal_append(j, &good, &msg));
+    for (int opened = 0; opened < 3; opened++) {
+        fw_journal_ids(j, &n);
+        assert_true(n == 8 && fw_journal_prefix(j) == 8);
+        assert_ok(fw_journal_read(j, 6, &r, &msg));
+        help_assert_same(&r, &good);
+        assert_record(j, 5);
+        assert_record(j, 7);
+        if (opened < 2) {
+            assert_ok(fw_journal_close(j, &msg));
+            assert_ok(opened ? fw_journal_open_read(&j, "f.journal", &c, &msg) : fw_journal_open(&j, "f.journal", &c, false, &msg));
+        }
+    }
+    assert_ok(fw_journal_close(j, &msg));
+    fw_journal_facts facts;
+    assert_ok(fw_journal_facts_of("f.journal", &facts, &msg));
+    assert_true(facts.n_done == 8 && facts.n_failed == 0);
+    /* the other way round is a fault: what succeeded is a pure function */
+    assert_ok(fw_journal_open(&j, "f.journal", &c, false, &msg));
+    assert_int_equal(fw_journal_append(j, (help_fill(&r, 6), &r), &msg), FW_E_FORMAT);
+    assert_non_null(strstr(msg.text, "twice"));
+    fw_journal_close(j, &msg);
+    fw_record_free(&good);
+    fw_record_free(&r);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -385,6 +427,7 @@ int main(void)
         cmocka_unit_test(test_mismatch_names_the_settings),
         cmocka_unit_test(test_lock),
         cmocka_unit_test(test_one_id_twice),
+        cmocka_unit_test(test_failed_one_run_again),
     };
     return cmocka_run_group_tests(tests, help_enter_folder, help_leave_folder);
 }

@@ -1,0 +1,102 @@
+"""What a user sees of failed realisations: counts, both ends of the percentiles, a scene of its own, a run of them again.
+
+usage: test_failures.py PROGRAM
+"""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = sys.argv[1]
+# A spring that floes of 1.3 m may go through: some windows fail by "a whole radius".
+SOFT = """
+name: soft
+structure: {diameter: 7.4 m, measuring_points: 4}
+ice:
+  temperature: -10 degC
+  thickness_mixes: [{probability: 1, classes: {1.3 m: 1}}]
+  concentration: 3 %
+current: {speed: 2 m/s, direction: 0 deg}
+contact: {stiffness: 60 kN/m}
+exposure: {window: 600 s}
+precision: {quantity: P50, max_realisations: 30, max_failed: 29}
+seed: 7
+"""
+
+
+class Failures(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        os.chdir(folder.name)
+        pathlib.Path("soft.yaml").write_text(SOFT, encoding="utf-8")
+
+    def call(self, *words, code=0):
+        done = subprocess.run([PROGRAM, *words], capture_output=True, stdin=subprocess.DEVNULL, text=True, timeout=60, check=False)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done
+
+    def failed_ids(self, done):
+        return [int(line.split()[2]) for line in done.stderr.splitlines() if line.startswith("failed: id")]
+
+    def test_counted_and_shown_at_both_ends(self):
+        done = self.call("run", "soft.yaml")
+        ids = self.failed_ids(done)
+        self.assertTrue(1 <= len(ids) <= 10, done.stderr)
+        self.assertIn("a whole radius", done.stderr)
+        self.assertIn("(seed 7)", done.stderr)
+        self.assertIn(f"{len(ids)} of 30 failed; counted as 0 and as infinity they give P50", done.stdout)
+        report = json.loads(self.call("report", "soft.h5", "--json").stdout)
+        self.assertEqual((report["n"], report["failed"]), (30, len(ids)))
+
+    def test_too_many(self):
+        done = self.call("run", "soft.yaml", "--set", "precision.max_failed=1", "--set", "contact.stiffness=10 kN/m", code=3)
+        self.assertIn("more than 1 (precision.max_failed) of the first", done.stderr)
+
+    def test_alone_and_as_a_scene(self):
+        first = self.failed_ids(self.call("run", "soft.yaml"))[0]
+        journal = pathlib.Path("soft.journal").read_bytes()
+        done = self.call("run", "soft.yaml", "--only-id", str(first), "--json", code=3)
+        record = json.loads(done.stdout)
+        self.assertEqual((record["id"], record["status"], record["tries"]), (first, "FW_E_NUMERIC", 2))
+        self.assertGreater(record["failed_at"], 0)
+        self.assertIn(record["cause"], done.stderr)
+        self.assertEqual(journal, pathlib.Path("soft.journal").read_bytes())
+        name = f"soft.failed-{first}.yaml"
+        self.assertIn(f"floewear scene {name}", done.stderr)
+        self.assertIn("a whole radius", self.call("scene", name, code=3).stderr)
+        # it is the same failure: a stiffer spring holds
+        self.call("scene", name, "--set", "contact.stiffness=2000 kN/m")
+
+    def test_a_good_one_alone_writes_nothing(self):
+        failed = self.failed_ids(self.call("run", "soft.yaml"))
+        good = next(i for i in range(30) if i not in failed)
+        before = sorted(os.listdir())
+        self.call("run", "soft.yaml", "--only-id", str(good))
+        self.assertEqual(before, sorted(os.listdir()))
+
+    def test_run_again(self):
+        """The same program fails again: same journal, same answer. What had not failed is not computed again."""
+        first = self.call("run", "soft.yaml", "--json")
+        journal = pathlib.Path("soft.journal").read_bytes()
+        again = self.call("run", "soft.yaml", "--json", "--rerun-failed")
+        self.assertIn(f"going on from {30 - len(self.failed_ids(first))} of 30", again.stderr)
+        self.assertEqual(json.loads(first.stdout), json.loads(again.stdout))
+        self.assertEqual(journal, pathlib.Path("soft.journal").read_bytes())
+
+    def test_limit_is_part_of_the_campaign(self):
+        done = self.call("run", "soft.yaml", "--set", "exposure.max_force_evaluations=900")
+        self.assertIn("more than 900 force evaluations at t = ", done.stderr)
+        done = self.call("run", "soft.yaml", code=4)
+        self.assertIn("exposure.max_force_evaluations (journal: 900, campaign: auto", done.stderr)
+        done = self.call("run", "soft.yaml", "-o", "x", "--set", "exposure.max_force_evaluations=0", code=2)
+        self.assertIn("exposure.max_force_evaluations", done.stderr)
+        done = self.call("run", "soft.yaml", "-o", "y", "--set", "exposure.max_force_evaluations=1", code=3)
+        self.assertIn("more than 29 (precision.max_failed)", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
