@@ -10,8 +10,9 @@
 
 /* The records of a campaign are those of one generation of the program. Raised by every change that gives a realisation other numbers, and part
  * of what a campaign's hash stands for: runs begun by another generation are refused, not mixed. 2: accuracy levels of
- * November 2026; 3: awake_floes, reach; 4: watch-dogs, second tries. */
-enum { FW_RECORD_GENERATION = 4 };
+ * November 2026; 3: awake_floes, reach; 4: watch-dogs, second tries; 5: slip watched between
+ * floes too. */
+enum { FW_RECORD_GENERATION = 5 };
 
 /* Scalar columns: C type tag, name (also the HDF5 dataset and journal order), unit (UDUNITS), long name.
  * One list, so that packing, HDF5, documentation and comparison cannot drift apart. */
@@ -39,7 +40,7 @@ enum { FW_RECORD_GENERATION = 4 };
     X(force_evaluations, "1", "contact force evaluations, one per contact and stage")                                  \
     X(steps, "1", "sub-steps of all islands")                                                                          \
     X(refined_steps, "1", "sub-steps repeated with half their length because a watch-dog saw a law broken")             \
-    X(slip_chatter, "1", "share of the steps on the structure whose slip jumped to and fro between the caps of friction") \
+    X(slip_chatter, "1", "share of the contacts' steps whose slip jumped to and fro between the caps of friction") \
     X(late_touches, "1", "touches found only after the rims had overlapped")                                           \
     X(late_overlap, "1", "largest overlap at such a touch over the smaller radius")                                    \
     X(tries, "1", "1; 2 when the first try failed and finer steps were taken from the start")                          \

@@ -110,7 +110,7 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
     l->drag_work += mass * drag_work, l->dashpot += dashpot, l->friction += friction;
     double d_start = fw_larger(0, L->from.depth), d_end = fw_larger(0, e->depth);
     double stored = 0.5 * p->law.k * (d_end * d_end - d_start * d_start);
-    l->into_springs += fw_larger(0, stored), l->wall_steps++;
+    l->into_springs += fw_larger(0, stored), l->contact_steps++;
     c->dissipated += dashpot + friction;
     if (L->presses) {
         l->normal_impulse += mass * (L->span * integral(L->by.push, h / L->span) - (e->rate - L->from.rate));

@@ -28,6 +28,7 @@ void fw_plain_destroy(fw_plain *p)
     free(p->near_wall);
     free(p->wall);
     free(p->t_touch);
+    free(p->slip);
     free(p->slope);
     free(p->is_gone);
     free(p);
@@ -60,6 +61,8 @@ static fw_status list(fw_plain *p, fw_world *w, fw_msg *m)
     FW_TRY(fw_grow(&p->law, &p->law_capacity, p->neighbours.n_near + 1, sizeof *p->law, "plain kernel", m));
     FW_TRY(fw_grow(&p->force, &p->force_capacity, 3 * w->n_bodies + 3, sizeof *p->force, "plain kernel", m));
     FW_TRY(fw_grow(&p->t_touch, &p->touch_capacity, w->n_bodies + 1, sizeof *p->t_touch, "plain kernel", m));
+    FW_TRY(fw_grow(&p->slip, &p->slip_capacity, p->neighbours.n_near + 1, sizeof *p->slip, "plain kernel", m));
+    memset(p->slip, 0, p->neighbours.n_near * sizeof *p->slip); /* listed anew: what jumped before is forgotten */
     if (p->numerics.scheme == FW_SCHEME_VERLET)
         FW_TRY(fw_grow(&p->slope, &p->slope_capacity, 3 * w->n_bodies + 3, sizeof *p->slope, "plain kernel", m));
     if (p->numerics.scheme == FW_SCHEME_RK4)

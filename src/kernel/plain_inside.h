@@ -10,6 +10,12 @@ typedef struct fw_plain_wall {
     double depth, rate, normal, slip, angle; /* normal k d + c d' with its sign; depth < 0: a gap */
 } fw_plain_wall;
 
+/* Slip of a near pair at one instant, and whether it jumped from cap to cap of friction to get there. */
+struct fw_plain_slip {
+    double slip, normal;
+    int    jumped;
+};
+
 struct fw_plain {
     fw_setup              setup;
     fw_numerics           numerics;
@@ -27,6 +33,8 @@ struct fw_plain {
     size_t                wall_capacity;
     double               *t_touch; /* (n_bodies) when the contact with the structure closed */
     size_t                touch_capacity;
+    struct fw_plain_slip *slip; /* (n_near) of the step before; without a contact normal is 0 */
+    size_t                slip_capacity;
     double *slope; /* (n_bodies x 3) accelerations at the step's start, of Verlet; 0: drifts with the water */
     size_t  slope_capacity;
     bool    has_started;
@@ -42,6 +50,9 @@ void fw_plain_advance(fw_plain *p, fw_world *w, fw_wear *wear, double dt);
 /* Before and after a step: what the structure's contacts were and have become; the wear rule gets both ends. */
 void fw_plain_wear_begin(fw_plain *p, const fw_world *w);
 void fw_plain_wear_end(fw_plain *p, fw_world *w, fw_wear *wear, double t, double dt);
+
+/* plain_watch.c: after a step. An explicit step beyond its limit does not blow up: slip chatters between the caps of friction. */
+void fw_plain_watch(fw_plain *p, fw_world *w);
 
 /* Euler with the naive rule collects inside its force loop and needs neither. */
 static inline bool fw_plain_is_naive_euler(const fw_plain *p)

@@ -140,6 +140,7 @@ void fw_plain_advance(fw_plain *p, fw_world *w, fw_wear *wear, double dt)
         default: euler(p, w, wear, dt, false); break;
         }
         fw_plain_wear_end(p, w, wear, w->t, dt);
+        fw_plain_watch(p, w);
     }
     w->t += dt;
     w->drift += p->setup.speed * dt;

@@ -25,13 +25,18 @@ static bool is_energy_out(const fw_cluster *c, const fw_setup *set)
     return fabs(imbalance) > bound * (exchanged + AT_REST * 0.5 * mass * set->velocity_scale * set->velocity_scale);
 }
 
-/* +-1: slip goes from one cap of friction to the other within the step, up or down; 0: no such jump. */
-static int jump_of_slip(const fw_pair *p, size_t last)
+int fw_watch_jump(const fw_contact_constants *law, double share, double slip0, double normal0, double slip1, double normal1)
 {
-    if (p->b != FW_WALL || p->slip[0] * p->slip[last] >= 0) return 0;
-    for (size_t s = 0; s <= last; s += last)
-        if (!(p->normal[s] > 0) || p->law.ct * fabs(p->slip[s]) < p->law.mu * p->normal[s]) return 0;
-    return p->slip[last] > 0 ? 1 : -1;
+    if (slip0 * slip1 >= 0 || !(normal0 > 0) || !(normal1 > 0)) return 0;
+    double force0 = law->ct * fabs(slip0), force1 = law->ct * fabs(slip1);
+    if (force0 < share * law->mu * normal0 || force1 < share * law->mu * normal1) return 0;
+    return slip1 > 0 ? 1 : -1;
+}
+
+static int jump_of(const fw_pair *p, size_t last)
+{
+    /* 1: error control lets slip end anywhere near 0, which is not far from the cap where little presses */
+    return fw_watch_jump(&p->law, 1, p->slip[0], p->normal[0], p->slip[last], p->normal[last]);
 }
 
 bool fw_watch_step(const fw_cluster *c, const fw_setup *set, double h)
@@ -39,7 +44,7 @@ bool fw_watch_step(const fw_cluster *c, const fw_setup *set, double h)
     if (h * c->omega < SHORTEST_WATCHED) return false;
     if (is_energy_out(c, set)) return true;
     for (size_t k = 0; k < c->n_pairs; k++)
-        if (c->pairs[k].jumped && jump_of_slip(&c->pairs[k], set->method->n_stages - 1) == -c->pairs[k].jumped) return true;
+        if (c->pairs[k].jumped && jump_of(&c->pairs[k], set->method->n_stages - 1) == -c->pairs[k].jumped) return true;
     return false;
 }
 
@@ -47,9 +52,8 @@ void fw_watch_slip(fw_cluster *c, fw_ledger *l, size_t last)
 {
     for (size_t k = 0; k < c->n_pairs; k++) {
         fw_pair *p = &c->pairs[k];
-        if (p->b != FW_WALL) continue;
-        int8_t jump = (int8_t)jump_of_slip(p, last);
-        l->wall_steps++;
+        int8_t jump = (int8_t)jump_of(p, last);
+        l->contact_steps++;
         if (jump && jump == -p->jumped) l->chatter++;
         p->jumped = jump;
     }

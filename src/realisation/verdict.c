@@ -4,7 +4,7 @@
 
 /* What floating point leaves of sums that are reached on two ways: 5e-13 after 3 h of dense ice. */
 static const double BOOKS = 1e-10;
-/* Share of the steps on the structure whose slip jumps to and fro between the caps of friction: none has been seen in a sound run, beyond the
+/* Share of the contacts' steps whose slip jumps to and fro between the caps of friction: none has been seen in a sound run, beyond the
  * limit of an explicit scheme it is most of them. */
 static const double CHATTER = 1e-3;
 
@@ -28,7 +28,7 @@ fw_status fw_verdict(const fw_record *r, const fw_world *w, double energy_tolera
         {"momentum bookkeeping (impulses against the change of momentum)", r->momentum_relative, BOOKS},
         {"wear load on the ring against the patch integral", r->wear_conservation, BOOKS},
         {"energy given by friction or dashpots", fw_ledger_energy_given(&w->ledger), BOOKS},
-        {"slip chatter, share of the steps on the structure", r->slip_chatter, CHATTER},
+        {"slip chatter, share of the contacts' steps", r->slip_chatter, CHATTER},
         {"energy balance of the trajectory", r->energy_truncation, energy_tolerance},
     };
     for (size_t i = 0; i < sizeof LAWS / sizeof LAWS[0]; i++)

@@ -33,4 +33,4 @@ double fw_ledger_floes_lost(const fw_ledger *l, double n_now)
     return fabs(l->floes_start + l->floes_in - l->floes_out - n_now);
 }
 
-double fw_ledger_chatter(const fw_ledger *l) { return l->wall_steps > 0 ? l->chatter / l->wall_steps : 0; }
+double fw_ledger_chatter(const fw_ledger *l) { return l->contact_steps > 0 ? l->chatter / l->contact_steps : 0; }

@@ -24,7 +24,7 @@ typedef struct fw_ledger {
     double hits;           /* first touches after 1 s apart */
     /* what the watch-dogs saw */
     double refined;           /* steps repeated for one of them, finer */
-    double chatter, wall_steps; /* steps in which slip jumped from cap to cap once more; steps on the structure */
+    double chatter, contact_steps; /* steps in which slip jumped from cap to cap and back; steps of all contacts */
     double late_overlap;      /* largest one found before its touch, over the smaller radius */
     /* range of the rigid-disc picture */
     double max_overlap;       /* [m] */
@@ -48,7 +48,7 @@ double fw_ledger_energy_truncation(const fw_ledger *l, double start, double end)
 double fw_ledger_energy_given(const fw_ledger *l);
 /* Floes that nobody can account for; n_now: awake ones. */
 double fw_ledger_floes_lost(const fw_ledger *l, double n_now);
-/* Share of the steps on the structure in which slip chattered. */
+/* Share of the steps of all contacts in which slip chattered. */
 double fw_ledger_chatter(const fw_ledger *l);
 
 #endif

@@ -92,11 +92,11 @@ static void slip_chatters(void **state)
     step_of(&r, 3, -3, 1000); /* from cap to cap: may be real, once */
     assert_false(fw_watch_step(&r.c, &s, 0.01));
     fw_watch_slip(&r.c, &l, last);
-    assert_true(r.pair.jumped == -1 && l.chatter == 0 && l.wall_steps == 1);
+    assert_true(r.pair.jumped == -1 && l.chatter == 0 && l.contact_steps == 1);
     step_of(&r, -3, 3, 1000); /* and back at once is not */
     assert_true(fw_watch_step(&r.c, &s, 0.01));
     fw_watch_slip(&r.c, &l, last);
-    assert_true(l.chatter == 1 && l.wall_steps == 2);
+    assert_true(l.chatter == 1 && l.contact_steps == 2);
     CHECK_RELATIVE(fw_ledger_chatter(&l), 0.5, 1e-15);
     step_of(&r, 3, -0.5, 1000); /* ends below the cap: creep, resolved */
     assert_false(fw_watch_step(&r.c, &s, 0.01));
