@@ -13,6 +13,7 @@
 #include "effects/effects.h"
 #include "floewear/campaign.h"
 #include "realisation/accuracy.h"
+#include "realisation/cost.h"
 
 enum { MAX_SETS = 64, KEY_SET = 1000, KEY_JSON, KEY_PILOT, KEY_SEED, KEY_ACCURACY };
 
@@ -55,7 +56,7 @@ static error_t parse(int key, char *arg, struct argp_state *state)
 }
 
 static const struct argp_option OPTIONS[] = {
-    {"pilot", KEY_PILOT, "N", 0, "realisations of the pilot (default 16; 0: none)", 0},
+    {"pilot", KEY_PILOT, "N", 0, "realisations of the pilot (default: up to 16, as long as they are expected to take minutes; 0: none)", 0},
     {"accuracy-from", KEY_ACCURACY, "FILE", 0, "numerics chosen by floewear accuracy (default: NAME.accuracy.h5, if it is there)", 0},
     {"set", KEY_SET, "KEY=VALUE", 0, "override a key by its dotted path", 0},
     {"seed", KEY_SEED, "N", 0, "override the seed", 0},
@@ -71,6 +72,30 @@ static const struct argp ARGP = {OPTIONS,
                                  NULL,
                                  NULL};
 
+/* What the cost model expects of the campaign's windows [force evaluations]: mean and largest of the first thousand. */
+typedef struct expected {
+    double mean, most;
+} expected;
+
+static fw_status expect(const fw_campaign *c, expected *e, fw_msg *m)
+{
+    const uint64_t n = c->precision.max_realisations < 1000 ? c->precision.max_realisations : 1000;
+    *e = (expected){0, 0};
+    for (uint64_t id = 0; id < n; id++) {
+        fw_scenario s;
+        double      one;
+        fw_campaign_scenario(c, id, &s);
+        FW_TRY(fw_cost_expected(&c->model, &s, &one, m));
+        e->mean += one / (double)n, e->most = fmax(e->most, one);
+    }
+    return FW_OK;
+}
+
+/* About what a core of 2020 does in a second, at 40 to 80 % ice. */
+static const double EVALUATIONS_PER_S = 1.3e7;
+enum { USUAL_PILOT = 16 };
+static const double PILOT_S = 200; /* expected of all its windows */
+
 typedef struct pilot {
     size_t n, n_failed, n_wear;
     double cpu, cpu_max;     /* [s] mean and largest */
@@ -78,13 +103,19 @@ typedef struct pilot {
     double mean_speed;       /* [m/s] */
 } pilot;
 
-static fw_status run_pilot(const fw_campaign *c, size_t n, pilot *p, fw_msg *m)
+/* n < 0: the usual number, but no more than PILOT_S. */
+static fw_status run_pilot(const fw_campaign *c, long n, pilot *p, fw_msg *m)
 {
-    double sum = 0, sum2 = 0;
-    for (size_t id = 0; id < n; id++) {
+    double sum = 0, sum2 = 0, evaluations = 0;
+    size_t most = n < 0 ? USUAL_PILOT : (size_t)n;
+    for (size_t id = 0; id < most; id++) {
         fw_scenario s;
         fw_record   r;
+        double      one;
         fw_campaign_scenario(c, id, &s);
+        FW_TRY(fw_cost_expected(&c->model, &s, &one, m));
+        evaluations += one;
+        if (n < 0 && evaluations > PILOT_S * EVALUATIONS_PER_S) break;
         FW_TRY(fw_realise(&c->model, &s, NULL, &r, m));
         p->n++;
         p->cpu += r.host_cpu_s;
@@ -146,7 +177,8 @@ static forecast predict(const fw_campaign *c, const pilot *p)
     return f;
 }
 
-static void print_json(const fw_campaign *c, const fw_choice *choice, const pilot *p, const forecast *f, double speed)
+static void print_json(const fw_campaign *c, const fw_choice *choice, const expected *of, const pilot *p, const forecast *f,
+                       double speed)
 {
     fw_json          j = fw_json_onto(stdout);
     const fw_effect *e;
@@ -179,6 +211,11 @@ static void print_json(const fw_campaign *c, const fw_choice *choice, const pilo
         fw_json_end(&j);
     }
     fw_json_end(&j);
+    fw_json_key(&j, "expected");
+    fw_json_begin_object(&j);
+    fw_json_key(&j, "force_evaluations_mean"), fw_json_number(&j, of->mean);
+    fw_json_key(&j, "force_evaluations_most"), fw_json_number(&j, of->most);
+    fw_json_end(&j);
     fw_json_key(&j, "pilot");
     fw_json_begin_object(&j);
     fw_json_key(&j, "n"), fw_json_integer(&j, (int64_t)p->n);
@@ -201,10 +238,11 @@ static void print_json(const fw_campaign *c, const fw_choice *choice, const pilo
     fw_json_end(&j);
 }
 
-static void print_text(const fw_campaign *c, const fw_choice *choice, const pilot *p, const forecast *f, double speed)
+static void print_text(const arguments *a, const fw_campaign *c, const fw_choice *choice, const expected *of, const pilot *p, const forecast *f,
+                       double speed)
 {
     const fw_effect *e;
-    size_t           n = fw_effects_list(&e);
+    size_t           n = fw_effects_list(&e), wanted = a->pilot < 0 ? USUAL_PILOT : (size_t)a->pilot;
     printf("plan of campaign %s\n\neffects\n", c->name);
     for (size_t i = 0; i < n; i++) {
         char reason[200];
@@ -216,6 +254,13 @@ static void print_text(const fw_campaign *c, const fw_choice *choice, const pilo
     printf("\naccuracy %g %% of a window's depth, at %.3g m/s; %s\n", 100 * c->model.accuracy, speed, choice->line);
     for (size_t i = 0; i < n_lines; i++)
         printf("  %-13s %10.4g %-4s  %s\n", lines[i].name, lines[i].value, lines[i].unit, lines[i].why);
+    printf("\ncost model: %.2g force evaluations a window in the mean, %.2g at most: about %.2g and %.2g CPU s\n", of->mean, of->most,
+           of->mean / EVALUATIONS_PER_S, of->most / EVALUATIONS_PER_S);
+    if (c->model.max_evaluations > 0)
+        printf("  one that takes more than %.3g fails (exposure.max_force_evaluations)\n", c->model.max_evaluations);
+    else
+        printf("  one that takes more than 100 times what is expected of it fails (exposure.max_force_evaluations: auto)\n");
+    if (p->n < wanted) printf("\npilot: %s; --pilot %zu runs %zu all the same\n", p->n ? "cut short, its next window may take minutes" : "none, its first window may take minutes", wanted, wanted);
     if (p->n) {
         printf("\npilot of %zu realisations: %.3g CPU s each in the mean, %.3g at most, %zu failed\n", p->n, p->cpu,
                p->cpu_max, p->n_failed);
@@ -238,25 +283,27 @@ static void print_text(const fw_campaign *c, const fw_choice *choice, const pilo
 
 int fw_cmd_plan(int argc, char **argv)
 {
-    arguments a = {.pilot = 16, .seed = -1};
+    arguments a = {.pilot = -1, .seed = -1};
     argp_parse(&ARGP, argc, argv, 0, NULL, &a);
     fw_campaign c = {0};
     fw_msg      m = {""};
     pilot       p = {0};
+    expected    e = {0, 0};
     fw_choice   choice;
     fw_choice_wanted wanted = {
         .campaign = a.campaign, .n_sets = a.n_sets, .sets = a.sets, .seed = a.seed, .from = a.accuracy_from};
     fw_status s = fw_choice_campaign(&c, &wanted, &choice, &m);
-    if (s == FW_OK) s = run_pilot(&c, (size_t)a.pilot, &p, &m);
+    if (s == FW_OK) s = expect(&c, &e, &m);
+    if (s == FW_OK) s = run_pilot(&c, a.pilot, &p, &m);
     if (s == FW_OK) {
         fw_scenario sc;
         fw_campaign_scenario(&c, 0, &sc);
         forecast f = predict(&c, &p);
         double   speed = p.n ? p.mean_speed : sc.speed;
         if (a.is_json)
-            print_json(&c, &choice, &p, &f, speed);
+            print_json(&c, &choice, &e, &p, &f, speed);
         else
-            print_text(&c, &choice, &p, &f, speed);
+            print_text(&a, &c, &choice, &e, &p, &f, speed);
         s = fw_output_finish(&m);
     }
     if (s != FW_OK) fprintf(stderr, "floewear plan: %s\n", m.text[0] ? m.text : fw_status_sentence(s));
