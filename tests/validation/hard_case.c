@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double PI = 3.14159265358979323846, ACCURACY = 0.01;
+static const double PI = 3.14159265358979323846, ACCURACY = 0.01, SHIFT[3] = {1, -0.7, 0.3};
 enum { MAX_FLOES = 20000, N_SAMPLES = 200, MANY = 1000 };
 
 static double changed(double now, double change) { return change == 0 ? now : change == NONE ? 0 : change; }
@@ -45,6 +45,7 @@ void hard_case_open(hard_case *c, const hard_scene *s)
     size_t   n;
     fw_floe *f = floes_of(s, &n);
     for (size_t i = 0; i < n; i++) c->fastest = fmax(c->fastest, hypot(f[i].vx, f[i].vy));
+    if (!(c->fastest > 0)) c->fastest = 1e-3; /* nothing moves: any scale will do */
     free(f);
 }
 
@@ -78,17 +79,26 @@ double hard_energy(const hard_case *c, size_t n, const fw_floe *floes)
     return e;
 }
 
-int hard_degrees(hard_which which) { return which == HARD_QUARTER ? 90 : which == HARD_TURNED ? 37 : 0; }
+const hard_image hard_images[HARD_N_RUNS] = {
+    [HARD_BASE] = {1, 0, 1, 1, false},     [HARD_FINE] = {1, 0, 1, 1, false},     [HARD_MIRROR] = {-1, 0, 1, 1, false},
+    [HARD_QUARTER] = {1, 90, 1, 1, false}, [HARD_TURNED] = {1, 37, 1, 1, false},  [HARD_REVERSED] = {1, 0, 1, 1, true},
+    [HARD_WATCHED] = {1, 0, 1, 1, false},  [HARD_LIGHT] = {1, 0, 1, 0.25, false}, [HARD_SWIFT] = {1, 0, 2, 4, false},
+    [HARD_SHIFTED] = {1, 0, 1, 1, false},
+};
 
-static void move_scene(fw_floe *f, size_t n, hard_which which)
+/* The start of HARD_BASE becomes that of its image. */
+static void move_scene(fw_floe *f, size_t n, const hard_image *to)
 {
-    double a = hard_degrees(which) * PI / 180, c = which == HARD_QUARTER ? 0 : cos(a), s = which == HARD_QUARTER ? 1 : sin(a);
+    double a = to->degrees * PI / 180, c = to->degrees == 90 ? 0 : cos(a), s = sin(a), v = to->velocity;
     for (size_t i = 0; i < n; i++) {
+        fw_floe *p = &f[i], o = *p;
+        o.y *= to->flip, o.vy *= to->flip, o.spin *= to->flip;
+        p->x = c * o.x - s * o.y, p->y = s * o.x + c * o.y;
+        p->vx = v * (c * o.vx - s * o.vy), p->vy = v * (s * o.vx + c * o.vy), p->spin = v * o.spin;
+    }
+    for (size_t i = 0; to->is_reversed && i < n / 2; i++) {
         fw_floe o = f[i];
-        if (which == HARD_MIRROR) f[i].y = -o.y, f[i].vy = -o.vy, f[i].spin = -o.spin;
-        if (hard_degrees(which) == 0) continue;
-        f[i].x = c * o.x - s * o.y, f[i].y = s * o.x + c * o.y;
-        f[i].vx = c * o.vx - s * o.vy, f[i].vy = s * o.vx + c * o.vy;
+        f[i] = f[n - 1 - i], f[n - 1 - i] = o;
     }
 }
 
@@ -108,14 +118,18 @@ static fw_status see(void *self, double t, size_t n, const fw_floe *floes, fw_ms
 static void run_scene(hard_case *c, hard_which which, hard_run *r)
 {
     const hard_scene *s = c->scene;
+    const hard_image *to = &hard_images[which];
     r->start = floes_of(s, &r->n);
-    move_scene(r->start, r->n, which);
-    fw_scene        scene = {.model = c->model, .speed = s->speed, .temperature = -10, .duration = s->duration, .n_floes = r->n, .floes = r->start};
+    move_scene(r->start, r->n, to);
+    fw_scene        scene = {.model = c->model, .speed = s->speed * to->velocity, .temperature = -10, .duration = s->duration / to->velocity, .n_floes = r->n, .floes = r->start};
     fw_scene_result result;
     fw_msg          m = {""};
     watch           w = {c, r};
     fw_frame_sink   frames = {see, &w, s->duration / (r->n > MANY ? 10 : N_SAMPLES)};
-    if (which == HARD_FINE) scene.model.accuracy = 0.1 * c->accuracy;
+    if (which == HARD_FINE || which == HARD_SHIFTED) scene.model.accuracy = 0.1 * c->accuracy;
+    for (size_t i = 0; which == HARD_SHIFTED && i < r->n; i++) r->start[i].y += 1e-3 * SHIFT[i % 3];
+    if (which == HARD_LIGHT) scene.model.ice_density *= 0.25, scene.model.water_density *= 0.25;
+    scene.model.stiffness *= to->force;
     r->energy[0] = hard_energy(c, r->n, r->start);
     r->status = fw_scene_run(&scene, NULL, which == HARD_WATCHED ? &frames : NULL, &result, &m);
     snprintf(r->cause, sizeof r->cause, "%.*s", (int)sizeof r->cause - 1, m.text);

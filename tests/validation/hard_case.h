@@ -1,11 +1,31 @@
-/* One hard scene and its runs: as it is, at a tenth of the accuracy, mirrored, turned. A run is made when a law first asks for it. */
+/* One hard scene and its runs: as it is, at a tenth of the accuracy, mirrored, turned and so on. A run is made when a law first asks for it. */
 #ifndef TESTS_HARD_CASE_H
 #define TESTS_HARD_CASE_H
 
 #include "validation/hard_scenes.h"
 
-/* QUARTER, TURNED: by 90 and 37 degrees anticlockwise. WATCHED: with energy sampled, which cuts steps. */
-typedef enum hard_which { HARD_BASE, HARD_FINE, HARD_MIRROR, HARD_QUARTER, HARD_TURNED, HARD_WATCHED, HARD_N_RUNS } hard_which;
+typedef enum hard_which {
+    HARD_BASE,
+    HARD_FINE,     /* a tenth of the accuracy */
+    HARD_MIRROR,   /* y -> -y */
+    HARD_QUARTER,  /* turned by 90 degrees anticlockwise */
+    HARD_TURNED,   /* by 37 */
+    HARD_REVERSED, /* the last floe first */
+    HARD_WATCHED,  /* saved at instants, which cuts steps; energy is looked at there */
+    HARD_LIGHT,    /* densities and stiffness over 4: every force over 4, the same motion */
+    HARD_SWIFT,    /* speeds times 2, stiffness times 4, half the time: every force times 4, the same ways */
+    HARD_SHIFTED,  /* a tenth of the accuracy, floes shifted by a millimetre or so each */
+    HARD_N_RUNS
+} hard_which;
+
+/* How a run's result follows from that of HARD_BASE. */
+typedef struct hard_image {
+    double flip;           /* of y and spin */
+    int    degrees;        /* anticlockwise; whole arcs of a ring of 360 */
+    double velocity, force; /* factors */
+    bool   is_reversed;
+} hard_image;
+extern const hard_image hard_images[HARD_N_RUNS];
 
 typedef struct hard_run {
     bool      is_made;
@@ -35,7 +55,5 @@ static inline bool hard_is_window(const hard_scene *s) { return s->concentration
 double             hard_mass(const hard_case *c, const fw_floe *f); /* [kg] */
 /* Kinetic and stored in overlaps [J]. */
 double hard_energy(const hard_case *c, size_t n, const fw_floe *floes);
-/* Anticlockwise turn of a run against HARD_BASE in degrees, whole arcs of a ring of 360. */
-int hard_degrees(hard_which which);
 
 #endif

@@ -50,6 +50,12 @@ static hard_verdict wear_books(hard_case *c) { return (hard_verdict){hard_case_r
 static hard_verdict balance(hard_case *c) { return (hard_verdict){hard_case_run(c, HARD_BASE)->record.energy_truncation, c->accuracy}; }
 static hard_verdict overlap(hard_case *c) { return (hard_verdict){hard_case_run(c, HARD_BASE)->record.max_overlap_share, 1 - 1e-12}; }
 
+static hard_verdict punctual(hard_case *c)
+{
+    const fw_record *q = &hard_case_run(c, HARD_BASE)->record;
+    return (hard_verdict){q->late_touches, hard_is_window(c->scene) ? 1e-3 * q->hits : 0};
+}
+
 static hard_verdict refuses(hard_case *c)
 {
     const hard_run *r = hard_case_run(c, HARD_BASE);
@@ -65,36 +71,69 @@ static hard_verdict depth(hard_case *c)
     return (hard_verdict){base == fine ? 0 : fabs(base / fine - 1), c->accuracy};
 }
 
-/* Arc k of the base run lies on this one of the other. */
-static size_t arc_of(hard_which which, size_t k, size_t n)
+static hard_verdict roughly(hard_case *c)
 {
-    return which == HARD_MIRROR ? n - 1 - k : (k + n - (size_t)hard_degrees(which) * n / 360) % n;
+    double fine = hard_case_run(c, HARD_FINE)->depth;
+    return (hard_verdict){depth(c).value, fmax(c->accuracy, fabs(hard_case_run(c, HARD_SHIFTED)->depth / fine - 1))};
 }
 
-/* Largest difference of place over a metre, of velocity over the fastest, and of an arc's load over the largest arc's. */
-static double difference(hard_case *c, hard_which which)
+/* Arc k of the base run lies on this one of the image. */
+static size_t arc_of(const hard_image *to, size_t k, size_t n)
 {
-    const hard_run *a = hard_case_run(c, HARD_BASE), *b = hard_case_run(c, which);
-    double          angle = hard_degrees(which) * PI / 180, co = cos(angle), si = sin(angle), flip = which == HARD_MIRROR ? -1 : 1, d = 0, load = 0;
+    return to->flip < 0 ? n - 1 - k : (k + n - (size_t)to->degrees * n / 360) % n;
+}
+
+/* Of a run from the image of HARD_BASE: largest difference of place over the longest way (at least a metre), and of velocity over the fastest. */
+static double off_motion(hard_case *c, hard_which which)
+{
+    const hard_run   *a = hard_case_run(c, HARD_BASE), *b = hard_case_run(c, which);
+    const hard_image *to = &hard_images[which];
+    double            angle = to->degrees * PI / 180, co = cos(angle), si = sin(angle), way = fmax(1, c->fastest * c->scene->duration), d = 0;
     if (a->status != FW_OK || b->status != FW_OK) return NAN;
     for (size_t i = 0; i < a->n; i++) {
-        const fw_floe *p = &a->end[i], *q = &b->end[i];
-        double         y = flip * p->y, vy = flip * p->vy;
-        d = worse(d, hypot(q->x - (co * p->x - si * y), q->y - (si * p->x + co * y)));
-        d = worse(d, hypot(q->vx - (co * p->vx - si * vy), q->vy - (si * p->vx + co * vy)) / c->fastest);
-        d = worse(d, 0.5 * p->diameter * fabs(q->spin - flip * p->spin) / c->fastest);
+        const fw_floe *p = &a->end[i], *q = &b->end[to->is_reversed ? a->n - 1 - i : i];
+        double         y = to->flip * p->y, vx = to->velocity * p->vx, vy = to->velocity * to->flip * p->vy, v = to->velocity * c->fastest;
+        d = worse(d, hypot(q->x - (co * p->x - si * y), q->y - (si * p->x + co * y)) / way);
+        d = worse(d, hypot(q->vx - (co * vx - si * vy), q->vy - (si * vx + co * vy)) / v);
+        d = worse(d, 0.5 * p->diameter * fabs(q->spin - to->velocity * to->flip * p->spin) / v);
     }
-    const double *la = fw_record_load(&a->record, 0, FW_RING_LOAD), *lb = fw_record_load(&b->record, 0, FW_RING_LOAD);
-    size_t        n = a->record.n_arcs;
-    for (size_t k = 0; k < n; k++) load = fmax(load, la[k]);
-    for (size_t k = 0; load > 0 && k < n; k++) d = worse(d, fabs(lb[arc_of(which, k, n)] - la[k]) / load);
     return d;
 }
 
-static hard_verdict mirror(hard_case *c) { return (hard_verdict){difference(c, HARD_MIRROR), 1e-9}; }
+/* Likewise the wear: largest difference of what lies between the first arc and any other, over all of it. */
+static double off_ring(hard_case *c, hard_which which)
+{
+    const fw_record  *a = &hard_case_run(c, HARD_BASE)->record, *b = &hard_case_run(c, which)->record;
+    const hard_image *to = &hard_images[which];
+    const double     *la = fw_record_load(a, 0, FW_RING_LOAD), *lb = fw_record_load(b, 0, FW_RING_LOAD);
+    double            all = 0, sum = 0, d = 0;
+    for (size_t k = 0; k < a->n_arcs; k++) all += la[k];
+    for (size_t k = 0; all > 0 && k < a->n_arcs; k++) sum += lb[arc_of(to, k, a->n_arcs)] - la[k], d = worse(d, fabs(sum) / all);
+    return d;
+}
+
+static double off(hard_case *c, hard_which which) { return worse(off_motion(c, which), off_ring(c, which)); }
+
+/* Of depth: the ring may differ where pressure passes 5 MPa, since what lies above keeps to its own arcs (abrasion/wear.c). */
+static double off_depth(hard_case *c, hard_which which)
+{
+    double a = hard_case_run(c, HARD_BASE)->depth, b = hard_case_run(c, which)->depth / pow(hard_images[which].force, c->model.laws[0].exponent);
+    return a == b ? 0 : fabs(b / a - 1);
+}
+static double off_similar(hard_case *c, hard_which which) { return worse(off_motion(c, which), off_depth(c, which)); }
+
+static hard_verdict mirror(hard_case *c) { return (hard_verdict){off(c, HARD_MIRROR), 1e-9}; }
+static hard_verdict similar(hard_case *c) { return (hard_verdict){worse(off_similar(c, HARD_LIGHT), off_similar(c, HARD_SWIFT)), 1e-9}; }
+static hard_verdict order(hard_case *c) { return (hard_verdict){off(c, HARD_REVERSED), c->accuracy}; }
+/* Of depth, which is what accuracy promises; of motion where there is none. */
+static hard_verdict watching(hard_case *c)
+{
+    bool has_depth = hard_case_run(c, HARD_BASE)->depth > 0;
+    return (hard_verdict){has_depth ? off_depth(c, HARD_WATCHED) : off_motion(c, HARD_WATCHED), c->accuracy};
+}
 static hard_verdict turned(hard_case *c)
 {
-    return (hard_verdict){worse(difference(c, HARD_QUARTER), difference(c, HARD_TURNED)), c->accuracy};
+    return (hard_verdict){worse(off(c, HARD_QUARTER), off(c, HARD_TURNED)), c->accuracy};
 }
 
 /* ---- energy and momentum --------------------------------------------------------------------------------------------- */
@@ -119,11 +158,12 @@ static hard_verdict kept(hard_case *c)
     return (hard_verdict){hypot(p[0], p[1]) / size, 1e-12};
 }
 
+/* Spin is not asked for: form drag does not slow it. */
 static hard_verdict rests(hard_case *c)
 {
     const hard_run *r = hard_case_run(c, HARD_BASE);
     double          v = 0;
-    for (size_t i = 0; i < r->n; i++) v = worse(v, fmax(hypot(r->end[i].vx, r->end[i].vy), 0.5 * r->end[i].diameter * fabs(r->end[i].spin)));
+    for (size_t i = 0; i < r->n; i++) v = worse(v, hypot(r->end[i].vx, r->end[i].vy));
     return (hard_verdict){v / c->fastest, 0.01};
 }
 
@@ -145,12 +185,12 @@ static hard_verdict on_axis(hard_case *c)
     return (hard_verdict){d, 1e-12};
 }
 
-static hard_verdict symmetric(hard_case *c)
+static double asymmetry(const hard_case *c, const hard_run *r)
 {
-    const hard_run *r = hard_case_run(c, HARD_BASE);
-    double          d = asymmetry_of_ring(&r->record);
+    double d = asymmetry_of_ring(&r->record);
+    if (r->status != FW_OK) return NAN;
     for (size_t i = 0; i < r->n; i++) {
-        double nearest = INFINITY; /* of the partners: a floe that starts in the mirror image's place */
+        double nearest = INFINITY; /* of the partners: floes that start in the mirror image's place */
         for (size_t j = 0; j < r->n; j++) {
             if (hypot(r->start[i].x - r->start[j].x, r->start[i].y + r->start[j].y) > 1e-9) continue;
             const fw_floe *p = &r->end[i], *q = &r->end[j];
@@ -159,7 +199,12 @@ static hard_verdict symmetric(hard_case *c)
         }
         d = worse(d, nearest);
     }
-    return (hard_verdict){d, 1e-6};
+    return d;
+}
+
+static hard_verdict symmetric(hard_case *c)
+{
+    return (hard_verdict){worse(asymmetry(c, hard_case_run(c, HARD_BASE)), 10 * asymmetry(c, hard_case_run(c, HARD_FINE))), c->accuracy};
 }
 
 /* ---- closed forms ---------------------------------------------------------------------------------------------------- */
@@ -177,26 +222,71 @@ static double restitution_of(double zeta)
     return exp(-zeta / root * atan2(2 * zeta * root, 2 * zeta * zeta - 1));
 }
 
-/* One floe on the structure, or two floes. */
-static hard_verdict restitution(hard_case *c)
+/* One floe on the structure, or two floes: how far the speed after and the impulse are off. */
+static double off_restitution(const hard_case *c, const hard_run *r)
+{
+    double e = restitution_of(c->model.damping_ratio), v = r->start[0].vx;
+    if (r->n == 2) return fabs((r->end[1].vx - r->end[0].vx) / (v - r->start[1].vx) - e);
+    double impulse = hard_mass(c, r->start) * v * (1 + e);
+    return worse(fabs(-r->end[0].vx / v - e), fabs(r->record.normal_impulse / impulse - 1));
+}
+
+/* The same oscillator, times in 1/w: overlap d(t) and force N(t) = d + 2 zeta d' for unit speed, mass and stiffness. */
+static void oscillate(double zeta, double t, double *d, double *n)
+{
+    double root = sqrt(fabs(1 - zeta * zeta)), decay = exp(-zeta * t), sine = t, cosine = 1;
+    if (zeta < 1) sine = sin(root * t) / root, cosine = cos(root * t);
+    if (zeta > 1) sine = sinh(root * t) / root, cosine = cosh(root * t);
+    *d = decay * sine, *n = *d + 2 * zeta * decay * (cosine - zeta * sine);
+}
+
+/* d' = 0: tan(root t) = root / zeta. N' = 0: tan(root t) = root (1 - 4 zeta^2) / (zeta (3 - 4 zeta^2)); from zeta 1/2 on it only falls. */
+static double deepest_of(double zeta)
+{
+    double root = sqrt(fabs(1 - zeta * zeta)), t = 1, d, n;
+    if (zeta < 1) t = atan2(root, zeta) / root;
+    if (zeta > 1) t = atanh(root / zeta) / root;
+    oscillate(zeta, t, &d, &n);
+    return d;
+}
+static double peak_of(double zeta)
+{
+    double root = sqrt(fabs(1 - zeta * zeta)), d, n;
+    oscillate(zeta, zeta < 0.5 ? atan2(root * (1 - 4 * zeta * zeta), zeta * (3 - 4 * zeta * zeta)) / root : 0, &d, &n);
+    return n;
+}
+
+static hard_verdict deepest(hard_case *c)
 {
     const hard_run *r = hard_case_run(c, HARD_BASE);
-    double          e = restitution_of(c->model.damping_ratio);
-    if (r->n == 2) {
-        double before = r->start[0].vx - r->start[1].vx, after = r->end[0].vx - r->end[1].vx;
-        return (hard_verdict){fabs(-after / before - e), 1e-3};
-    }
-    double v = r->start[0].vx, impulse = hard_mass(c, r->start) * v * (1 + e);
-    return (hard_verdict){worse(fabs(-r->end[0].vx / v - e), fabs(r->record.normal_impulse / impulse - 1)), 1e-3};
+    bool            is_pair = r->n == 2;
+    double          inv = 1 / hard_mass(c, r->start) + (is_pair ? 1 / hard_mass(c, r->start + 1) : 0), w = sqrt(c->model.stiffness * inv);
+    double          v = r->start[0].vx - (is_pair ? r->start[1].vx : 0);
+    return (hard_verdict){fabs(r->max_overlap / (v / w * deepest_of(c->model.damping_ratio)) - 1), c->accuracy};
+}
+
+/* Of one floe on the structure. */
+static hard_verdict peak(hard_case *c)
+{
+    const hard_run *r = hard_case_run(c, HARD_BASE);
+    double          w = sqrt(c->model.stiffness / hard_mass(c, r->start)), v = r->start[0].vx;
+    return (hard_verdict){fabs(r->record.peak_force / (c->model.stiffness * v / w * peak_of(c->model.damping_ratio)) - 1), c->accuracy};
+}
+
+static hard_verdict restitution(hard_case *c)
+{
+    return (hard_verdict){worse(off_restitution(c, hard_case_run(c, HARD_BASE)), 10 * off_restitution(c, hard_case_run(c, HARD_FINE))), c->accuracy};
 }
 
 static hard_verdict no_spin(hard_case *c)
 {
     const hard_run *r = hard_case_run(c, HARD_BASE);
     double          d = 0;
-    for (size_t i = 0; i < r->n; i++) d = worse(d, fabs(r->end[i].spin - r->start[i].spin));
-    return (hard_verdict){d, 0};
+    for (size_t i = 0; i < r->n; i++) d = worse(d, 0.5 * r->end[i].diameter * fabs(r->end[i].spin - r->start[i].spin));
+    return (hard_verdict){d / c->fastest, 1e-12};
 }
+
+static hard_verdict touches(hard_case *c) { return (hard_verdict){!(hard_case_run(c, HARD_BASE)->record.hits >= 1), 0}; }
 
 /* v' = -K |v| v against the water: v0 / (1 + K v0 t), way log(1 + K v0 t) / K along v0. */
 static hard_verdict flight(hard_case *c)
@@ -231,9 +321,14 @@ static hard_verdict (*const JUDGES[HARD_N_LAWS])(hard_case *) = {
     [HARD_LAW_MOMENTUM_BOOKS] = momentum_books,
     [HARD_LAW_WEAR_BOOKS] = wear_books,
     [HARD_LAW_BALANCE] = balance,
+    [HARD_LAW_PUNCTUAL] = punctual,
     [HARD_LAW_OVERLAP] = overlap,
     [HARD_LAW_DEPTH] = depth,
+    [HARD_LAW_ROUGHLY] = roughly,
     [HARD_LAW_MIRROR] = mirror,
+    [HARD_LAW_SIMILAR] = similar,
+    [HARD_LAW_ORDER] = order,
+    [HARD_LAW_WATCHING] = watching,
     [HARD_LAW_TURNED] = turned,
     [HARD_LAW_NO_GAIN] = no_gain,
     [HARD_LAW_KEPT] = kept,
@@ -241,13 +336,20 @@ static hard_verdict (*const JUDGES[HARD_N_LAWS])(hard_case *) = {
     [HARD_LAW_ON_AXIS] = on_axis,
     [HARD_LAW_SYMMETRIC] = symmetric,
     [HARD_LAW_RESTITUTION] = restitution,
+    [HARD_LAW_DEEPEST] = deepest,
+    [HARD_LAW_PEAK] = peak,
     [HARD_LAW_NO_SPIN] = no_spin,
+    [HARD_LAW_TOUCHES] = touches,
     [HARD_LAW_FLIGHT] = flight,
     [HARD_LAW_UNTOUCHED] = untouched,
     [HARD_LAW_REFUSES] = refuses,
 };
 
-uint64_t hard_laws_of(const hard_scene *s) { return s->laws & REFUSES ? s->laws : s->laws | HARD_ALWAYS; }
+uint64_t hard_laws_of(const hard_scene *s)
+{
+    if (s->laws & REFUSES) return s->laws;
+    return (s->laws | HARD_ALWAYS | (hard_is_window(s) || s->is_once ? 0 : HARD_OF_SCENES)) & ~s->without;
+}
 
 hard_verdict hard_law_judge(int law, hard_case *c)
 {

@@ -20,7 +20,7 @@ size_t hard_hexagon(fw_floe *to, size_t capacity, const double *p)
     for (int q = -rings; q <= rings; q++)
         for (int r = -rings; r <= rings; r++) {
             if (q + r < -rings || q + r > rings) continue;
-            put(to, capacity, &n, (fw_floe){.x = middle + pitch * (q + 0.5 * r), .y = pitch * sqrt(0.75) * r, .diameter = p[1], .thickness = p[2], .vx = p[5]});
+            put(to, capacity, &n, (fw_floe){.x = middle + pitch * (q + 0.5 * r), .y = pitch * sqrt(0.75) * r + p[6], .diameter = p[1], .thickness = p[2], .vx = p[5]});
         }
     return n;
 }
@@ -41,6 +41,17 @@ size_t hard_line(fw_floe *to, size_t capacity, const double *p)
     size_t n = 0;
     for (int i = 0; i < (int)p[0]; i++)
         put(to, capacity, &n, (fw_floe){.x = p[3] - 0.5 * p[1] - i * (p[1] + p[4]), .diameter = p[1], .thickness = p[2], .vx = p[5]});
+    return n;
+}
+
+size_t hard_row_of(fw_floe *to, size_t capacity, const double *p)
+{
+    size_t n = 0;
+    double reach = p[3] + 0.5 * p[1] + 0.1;
+    for (int i = 0; i < (int)p[0]; i++) {
+        double y = (i - 0.5 * (p[0] - 1)) * (p[1] + p[4]);
+        put(to, capacity, &n, (fw_floe){.x = -sqrt(reach * reach - y * y), .y = y, .diameter = p[1], .thickness = p[2], .vx = p[5]});
+    }
     return n;
 }
 

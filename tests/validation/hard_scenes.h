@@ -23,8 +23,9 @@ typedef size_t hard_layout(fw_floe *to, size_t capacity, const double *p);
 
 typedef struct hard_scene {
     const char   *name;
-    uint64_t      laws;    /* set of hard_law bits, besides those that every scene obeys */
-    uint64_t      waiting; /* laws not judged yet, */
+    uint64_t      laws;    /* set of hard_law bits, besides those of every scene */
+    uint64_t      without; /* of those: laws that mean nothing here */
+    uint64_t      waiting; /* laws that are not judged yet, */
     uint64_t      broken;  /* and laws known to be broken: shown as such, and no failure of the suite */
     const char   *why;     /* of both */
     hard_changes  change;
@@ -32,7 +33,7 @@ typedef struct hard_scene {
     size_t        n;
     const fw_floe *floes; /* (n) or */
     hard_layout  *layout;
-    double        p[6];
+    double        p[7];
     double        concentration; /* > 0: a window of ice by fw_realise instead of given floes */
     bool          is_long;       /* only with --all */
     bool          is_once;       /* too long to be run again at a tenth of the accuracy */
@@ -42,10 +43,11 @@ extern const hard_scene hard_scenes[];
 extern const size_t     hard_n_scenes;
 
 /* Layouts (hard_layouts.c). Floes touch, or nearly, at the start; all have the velocity (speed, 0) unless named otherwise. */
-hard_layout hard_hexagon; /* rings round one floe, D, h, x of the right rim, gap, speed */
+hard_layout hard_hexagon; /* rings round one floe, D, h, x of the right rim, gap, speed, y of the middle */
 hard_layout hard_square;  /* columns, rows, D, h, gap, speed: right rim one gap from the paper's structure */
 hard_layout hard_line;    /* n, D, h, x of the right rim, gap, speed */
-hard_layout hard_ring;    /* n round the structure of radius R, D, h, inward speed, R, 0 */
+hard_layout hard_row_of;  /* n side by side before the structure of radius R: n, D, h, R, gap, speed */
+hard_layout hard_ring;    /* n round the structure of radius R, D, h, inward speed, R */
 hard_layout hard_crowd;   /* n in a square pattern at random velocities far from the structure: n, D, h, gap, fastest, seed */
 hard_layout hard_mixed;   /* columns, rows, largest D, gap, speed, seed: diameters and thicknesses drawn over masses 1 : 100 */
 hard_layout hard_flower;  /* six round one: D middle, D others, h, gap, inward speed, x of the middle */

@@ -18,7 +18,7 @@ static void judge(hard_row *r, const hard_scene *s)
     hard_case_run(c, HARD_BASE);
     if (!(s->laws & REFUSES) && !s->is_once && c->runs[HARD_BASE].depth > 0) hard_case_run(c, HARD_FINE); /* for its column, law or not */
     for (int k = 0; k < HARD_N_LAWS; k++) {
-        uint64_t bit = 1u << k;
+        uint64_t bit = (uint64_t)1 << k;
         if (!(hard_laws_of(s) & bit)) continue;
         hard_verdict v = r->verdict[k] = hard_law_judge(k, c);
         r->state[k] = hard_is_held(v) ? HARD_HELD : s->waiting & bit ? HARD_WAITING : s->broken & bit ? HARD_KNOWN : HARD_BROKEN;
