@@ -80,16 +80,22 @@ double hard_energy(const hard_case *c, size_t n, const fw_floe *floes)
 }
 
 const hard_image hard_images[HARD_N_RUNS] = {
-    [HARD_BASE] = {1, 0, 1, 1, false},     [HARD_FINE] = {1, 0, 1, 1, false},     [HARD_MIRROR] = {-1, 0, 1, 1, false},
-    [HARD_QUARTER] = {1, 90, 1, 1, false}, [HARD_TURNED] = {1, 37, 1, 1, false},  [HARD_REVERSED] = {1, 0, 1, 1, true},
-    [HARD_WATCHED] = {1, 0, 1, 1, false},  [HARD_LIGHT] = {1, 0, 1, 0.25, false}, [HARD_SWIFT] = {1, 0, 2, 4, false},
-    [HARD_SHIFTED] = {1, 0, 1, 1, false},
+    [HARD_BASE] = {1, 0, 1, 0, 1, 1, false},
+    [HARD_FINE] = {1, 0, 1, 0, 1, 1, false},
+    [HARD_MIRROR] = {-1, 0, 1, 0, 1, 1, false},
+    [HARD_QUARTER] = {1, 90, 0, 1, 1, 1, false},
+    [HARD_TURNED] = {1, 37, 0.79863551004729283, 0.60181502315204827, 1, 1, false},
+    [HARD_REVERSED] = {1, 0, 1, 0, 1, 1, true},
+    [HARD_WATCHED] = {1, 0, 1, 0, 1, 1, false},
+    [HARD_LIGHT] = {1, 0, 1, 0, 1, 0.25, false},
+    [HARD_SWIFT] = {1, 0, 1, 0, 2, 4, false},
+    [HARD_SHIFTED] = {1, 0, 1, 0, 1, 1, false},
 };
 
 /* The start of HARD_BASE becomes that of its image. */
 static void move_scene(fw_floe *f, size_t n, const hard_image *to)
 {
-    double a = to->degrees * PI / 180, c = to->degrees == 90 ? 0 : cos(a), s = sin(a), v = to->velocity;
+    double c = to->cosine, s = to->sine, v = to->velocity;
     for (size_t i = 0; i < n; i++) {
         fw_floe *p = &f[i], o = *p;
         o.y *= to->flip, o.vy *= to->flip, o.spin *= to->flip;

@@ -20,8 +20,9 @@ typedef enum hard_which {
 
 /* How a run's result follows from that of HARD_BASE. */
 typedef struct hard_image {
-    double flip;           /* of y and spin */
-    int    degrees;        /* anticlockwise; whole arcs of a ring of 360 */
+    double flip;            /* of y and spin */
+    int    degrees;         /* anticlockwise; whole arcs of a ring of 360 */
+    double cosine, sine;    /* of them, as numbers: no library's last digit gets into the sheet */
     double velocity, force; /* factors */
     bool   is_reversed;
 } hard_image;

@@ -11,8 +11,6 @@ const char *const hard_law_keys[HARD_N_LAWS] = {HARD_LAW_LIST(X)};
 const char *const hard_law_texts[HARD_N_LAWS] = {HARD_LAW_LIST(X)};
 #undef X
 
-static const double PI = 3.14159265358979323846;
-
 /* The larger; NaN wins. */
 static double worse(double a, double b) { return a >= b || isnan(a) ? a : b; }
 
@@ -88,7 +86,7 @@ static double off_motion(hard_case *c, hard_which which)
 {
     const hard_run   *a = hard_case_run(c, HARD_BASE), *b = hard_case_run(c, which);
     const hard_image *to = &hard_images[which];
-    double            angle = to->degrees * PI / 180, co = cos(angle), si = sin(angle), way = fmax(1, c->fastest * c->scene->duration), d = 0;
+    double            co = to->cosine, si = to->sine, way = fmax(1, c->fastest * c->scene->duration), d = 0;
     if (a->status != FW_OK || b->status != FW_OK) return NAN;
     for (size_t i = 0; i < a->n; i++) {
         const fw_floe *p = &a->end[i], *q = &b->end[to->is_reversed ? a->n - 1 - i : i];
