@@ -45,13 +45,19 @@ static hard_verdict finite(hard_case *c)
 static hard_verdict energy_books(hard_case *c) { return (hard_verdict){hard_case_run(c, HARD_BASE)->record.energy_relative, 1e-10}; }
 static hard_verdict momentum_books(hard_case *c) { return (hard_verdict){hard_case_run(c, HARD_BASE)->record.momentum_relative, 1e-10}; }
 static hard_verdict wear_books(hard_case *c) { return (hard_verdict){hard_case_run(c, HARD_BASE)->record.wear_conservation, 1e-10}; }
-static hard_verdict balance(hard_case *c) { return (hard_verdict){hard_case_run(c, HARD_BASE)->record.energy_truncation, c->accuracy}; }
+/* None at all is no balance: the ledger says 0 when less than nothing is dissipated. */
+static hard_verdict balance(hard_case *c)
+{
+    const fw_record *q = &hard_case_run(c, HARD_BASE)->record;
+    bool             is_none = q->energy_truncation == 0 && q->normal_impulse > 0 && c->model.damping_ratio > 0;
+    return (hard_verdict){is_none ? NAN : q->energy_truncation, c->accuracy};
+}
 static hard_verdict overlap(hard_case *c) { return (hard_verdict){hard_case_run(c, HARD_BASE)->record.max_overlap_share, 1 - 1e-12}; }
 
 static hard_verdict punctual(hard_case *c)
 {
     const fw_record *q = &hard_case_run(c, HARD_BASE)->record;
-    return (hard_verdict){q->late_touches, hard_is_window(c->scene) ? 1e-3 * q->hits : 0};
+    return (hard_verdict){q->late_touches, hard_is_window(c->scene) ? 1e-2 * q->floes_touched : 0};
 }
 
 static hard_verdict refuses(hard_case *c)

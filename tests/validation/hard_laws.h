@@ -12,7 +12,7 @@
     X(MOMENTUM_BOOKS, "momentum_books", "impulses are the change of momentum to 1e-10")                                                         \
     X(WEAR_BOOKS, "wear_books", "the ring holds the patch integral to 1e-10")                                                                   \
     X(BALANCE, "balance", "the energy balance of the trajectory closes to the accuracy")                                                        \
-    X(PUNCTUAL, "punctual", "no touch is found after the rims have overlapped; in a window in one of a thousand hits")                           \
+    X(PUNCTUAL, "punctual", "no touch is found after the rims have overlapped; in a window one for a hundred floes")                           \
     X(OVERLAP, "overlap", "no overlap of a whole radius")                                                                                       \
     X(DEPTH, "depth", "a tenth of the accuracy changes depth by less than the accuracy")                                                        \
     X(ROUGHLY, "roughly", "or, where contacts hang by a hair, by less than shifting each floe by up to a millimetre does")                       \

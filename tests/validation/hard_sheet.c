@@ -59,8 +59,8 @@ static double value_of(const column *c, const hard_row *r)
 
 void hard_sheet_head(FILE *to)
 {
-    fprintf(to, "# Hard cases\n\nOutput of `build/tests/validation/validate_hard --all`: scenes that are the hardest on a discrete-element engine, and the laws each must "
-                "obey. Every law but the last of the list below is asked of the run at accuracy 1 %%; the closed forms and laws are said at the end.\n\n| scene | status");
+    fprintf(to, "# Hard cases\n\nOutput of `build/tests/validation/validate_hard --all`: scenes and windows that are the hardest on a discrete-element engine, each with "
+                "the laws it must obey, at accuracy 1 %%. What the laws say, and those that are not held, stand below.\n\n| scene | status");
     for (size_t i = 0; i < N_COLUMNS; i++) fprintf(to, " | %s", COLUMNS[i].heading);
     fprintf(to, " | not held |\n|---|---");
     for (size_t i = 0; i < N_COLUMNS; i++) fprintf(to, "|---");
