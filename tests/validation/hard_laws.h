@@ -15,7 +15,7 @@
     X(PUNCTUAL, "punctual", "no touch is found after the rims have overlapped; in a window one for a hundred floes")                           \
     X(OVERLAP, "overlap", "no overlap of a whole radius")                                                                                       \
     X(DEPTH, "depth", "a tenth of the accuracy changes depth by less than the accuracy")                                                        \
-    X(ROUGHLY, "roughly", "or, where contacts hang by a hair, by less than shifting each floe by up to a millimetre does")                       \
+    X(ROUGHLY, "roughly", "where contacts hang by a hair: that changes depth by less than the accuracy or than shifting each floe by up to a millimetre does") \
     X(MIRROR, "mirror", "the mirror image of the scene gives the mirror image of the result, to rounding")                                       \
     X(SIMILAR, "similar", "a quarter of every force, or twice the speed and four times the stiffness: the same ways, to rounding")               \
     X(ORDER, "order", "floes named in reverse order give the same to the accuracy")                                                              \
