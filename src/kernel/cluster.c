@@ -92,6 +92,10 @@ fw_status fw_cluster_close(fw_cluster *c, const fw_books *books, int32_t a, int3
     mark_touched(books, ea);
     if (eb) mark_touched(books, eb);
     books->world->ledger.touches++;
+    /* Rims that overlap when they are found to touch (at the start of a scene, or late) bring the energy of their spring along. */
+    double dx = ea->y0[FW_X] - (eb ? eb->y0[FW_X] : 0), dy = ea->y0[FW_Y] - (eb ? eb->y0[FW_Y] : 0);
+    double depth = fw_larger(0, ea->radius + (eb ? eb->radius : set->structure_radius) - fw_length(dx, dy));
+    books->world->ledger.inflow += 0.5 * p->law.k * depth * depth;
     /* A gentle touch is a small jump: the local error of a step h grows with the jump times h^2, so its first step may be
      * longer. On the structure the pressure's start is wear, whatever the speed. */
     double share = eb ? BETWEEN_FLOES * cbrt(set->velocity_scale / fw_larger(rate, 1e-3 * set->velocity_scale)) : 1;

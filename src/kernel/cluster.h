@@ -35,7 +35,7 @@ typedef struct fw_member {
     double   y0[8], y1[8], k[FW_MAX_STAGES][8];
     double   drag[FW_MAX_STAGES][2];
     double   fastest;           /* bound of |v - u| over the tried step [m/s] */
-    double   gained[3], shoved; /* books' sums of one step: velocity from impulses, and their size without sign */
+    double   gained[3], shoved, twisted; /* books' sums of one step: velocity from impulses, and their size without sign, spin's too */
     int32_t  index;             /* of the body in the world */
     uint32_t n_pairs;
 } fw_member;
@@ -133,6 +133,8 @@ double fw_member_fastest(const fw_member *m, double speed, double inv_h);
 void                 fw_books_weigh(fw_cluster *c, const fw_setup *set, double h); /* into c->tried */
 void                 fw_books_keep(fw_cluster *c, const fw_books *b);
 void                 fw_books_wear(const fw_cluster *c, const fw_books *b);
+/* Largest overlap between two instants h apart: of the cubic through both, whose slope is the closing rate. */
+double               fw_books_deepest(double depth0, double rate0, double depth1, double rate1, double h);
 /* An overlap of discs, the smaller one of radius `small`, after a step; true: beyond what soft contact is meant for. */
 bool                 fw_books_overlap(fw_ledger *l, double small, double depth);
 static inline double fw_pair_signed_normal(const fw_pair *p, size_t s)

@@ -170,7 +170,8 @@ static fw_status locate(fw_kernel *k, int32_t c, fw_cluster *a, fw_cluster *b, d
         double small = acceptable_gap(k, e, *closing), earliest = k->traffic.now;
         if (gap > small && !(*closing > 0)) return FW_OK;
         if (fabs(gap) <= small || (gap <= 0 && (*t <= earliest || !(*closing > 0)))) {
-            if (-gap > too_late(k, a, b, *t, small))
+            /* who overlaps at the very start has been put there so */
+            if (-gap > too_late(k, a, b, *t, small) && *t > 0)
                 FW_TRY(fw_watch_late(&k->traffic.setup, &k->traffic.world->ledger, &k->traffic.world->bodies[e->i], e->j == FW_WALL ? 0 : q.radius, -gap, *t, m));
             *is_touch = true;
             return FW_OK;

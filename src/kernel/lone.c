@@ -50,7 +50,7 @@ static const double BULGE = 0.016; /* largest integral of the second Legendre po
 /* All of the following in 1/w. */
 static const double FIRST_STEP = 0.5; /* after a touch: nothing is known of the forcing yet */
 static const double LONGEST_DECAY = 8,
-                    LONGEST_RINGING = 2; /* steps meanwhile; the latter where the floe goes to and fro */
+                    LONGEST_RINGING = 1; /* steps meanwhile; the latter where the floe goes to and fro */
 bool fw_lone_is(const fw_cluster *c, const fw_books *b)
 {
     return b->setup->is_lone_exact && c->n_pairs == 1 && c->n_members == 1 && c->pairs[0].b == FW_WALL;

@@ -27,6 +27,8 @@ static int cut_up(const fw_lone *L, const fw_pair *p, size_t last, double wear_t
     double h = L->length, omega = fw_larger(p->law.omega, L->half_damping + sqrt(fw_larger(0, L->split))),
            finer = sqrt(sqrt(wear_tolerance / 2e-4)), fresh = 0, piece = FIRST_PIECE / omega * finer;
     if (L->slides != 0 || !L->rubs) piece *= SLIDING;
+    /* viscous slip dies away at 6 ct / c w: 6 w where both dashpots are alike */
+    if (L->rubs && L->slides == 0) piece = fw_smaller(piece, FIRST_PIECE * 6 * L->per_relaxation * finer);
     if (L->presses) {
         fresh = fw_smaller(h, LONGEST_FRESH / omega);
         if (!L->is_short) { /* how much of the state is still decaying */
@@ -61,7 +63,7 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
     fw_body            *body = &b->world->bodies[m->index];
     fw_ledger          *l = &b->world->ledger;
     double              h = L->length, mass = 1 / m->own_inv_mass, omega = p->law.omega, cut[MAX_CUTS];
-    double              drag_work = 0, dashpot = 0, friction = 0, jx = 0, jy = 0, load = 0;
+    double              drag_work = 0, dashpot = 0, friction = 0, jx = 0, jy = 0, load = 0, deepest = 0;
     double              impact_left = body->t_hit + 2 / omega - c->t0;
     int                 n = cut_up(L, p, set->method->n_stages - 1, set->wear_tolerance, impact_left, cut);
     bool                wears = L->presses && b->wear->is_open;
@@ -80,6 +82,7 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
             w = later(L, w, j == 2 ? inner : outer), state_at(L, &p->law, from + AT[j] * dt, w, &y[j]);
         for (int j = 0; j < PIECE; j++) {
             double weight = WEIGHT[j] * dt;
+            if (j > 0) deepest = fw_larger(deepest, fw_books_deepest(y[j - 1].depth, y[j - 1].rate, y[j].depth, y[j].rate, (AT[j] - AT[j - 1]) * dt));
             if (m->drag_per_mass > 0) {
                 double nx, ny, out, along;
                 normal_at(L, y[j].turn, &nx, &ny);
@@ -118,7 +121,7 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
     } else {
         l->dropped -= stored;
     }
-    if (fw_books_overlap(l, fw_smaller(m->radius, set->structure_radius), e->depth)) l->overlap_time += h;
+    if (fw_books_overlap(l, fw_smaller(m->radius, set->structure_radius), deepest)) l->overlap_time += h;
     /* The contact's impulse along a turning normal has no closed form: it is what drag leaves of the change of momentum. So the two books of
      * impulses agree by construction here; the balance of work (dashpot, friction, drag, each by its own quadrature) is what checks. */
     double in[3] = {mass, mass, m->inv_inertia > 0 ? 1 / m->inv_inertia : 0}, work = 0;
@@ -129,6 +132,7 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
     double size = fw_length(jx, jy) + fw_length(m->y1[FW_VX] - m->y0[FW_VX] - jx, m->y1[FW_VY] - m->y0[FW_VY] - jy);
     l->kinetic_change += work, l->impulse_work += work;
     l->impulse_size += mass * size * 0.5 *
-                       (fw_length(m->y0[FW_VX], m->y0[FW_VY]) + fw_length(m->y1[FW_VX], m->y1[FW_VY]));
+                       (fw_length(m->y0[FW_VX], m->y0[FW_VY]) + fw_length(m->y1[FW_VX], m->y1[FW_VY])) +
+                       in[2] * fabs(m->y1[FW_SPIN] - m->y0[FW_SPIN]) * 0.5 * (fabs(m->y0[FW_SPIN]) + fabs(m->y1[FW_SPIN]));
     l->momentum_size += mass * size;
 }

@@ -76,6 +76,13 @@ static fw_status check(const fw_scene *scene, const fw_frame_sink *frames, doubl
                  m, FW_E_ARG, "floe %zu: a value is not finite or not positive", i + 1);
         *fastest = fmax(*fastest, hypot(f->vx, f->vy));
     }
+    bool have_contact = (scene->model.effects & FW_EFFECT_FLOE_CONTACT) != 0;
+    for (size_t i = 0; i < scene->n_floes && have_contact; i++)
+        for (size_t k = 0; k < i; k++) {
+            const fw_floe *a = &scene->floes[i], *b = &scene->floes[k];
+            double         far = 0.5 * fmax(a->diameter, b->diameter), dx = a->x - b->x, dy = a->y - b->y;
+            FW_CHECK(dx * dx + dy * dy > far * far, m, FW_E_ARG, "floes %zu and %zu overlap by a whole radius at the start", k + 1, i + 1);
+        }
     if (!(*fastest > 0)) *fastest = 1e-3; /* nothing moves: any scale will do */
     return FW_OK;
 }

@@ -63,7 +63,7 @@ static hard_verdict punctual(hard_case *c)
 static hard_verdict refuses(hard_case *c)
 {
     const hard_run *r = hard_case_run(c, HARD_BASE);
-    bool            is_refused = r->status == FW_E_NUMERIC && strstr(r->cause, "floe ");
+    bool            is_refused = (r->status == FW_E_NUMERIC || r->status == FW_E_ARG) && strstr(r->cause, "floe");
     return (hard_verdict){!is_refused, 0};
 }
 
@@ -73,6 +73,13 @@ static hard_verdict depth(hard_case *c)
 {
     double base = hard_case_run(c, HARD_BASE)->depth, fine = hard_case_run(c, HARD_FINE)->depth;
     return (hard_verdict){base == fine ? 0 : fabs(base / fine - 1), c->accuracy};
+}
+
+static hard_verdict twice(hard_case *c)
+{
+    hard_verdict v = depth(c);
+    v.bound *= 2;
+    return v;
 }
 
 static hard_verdict roughly(hard_case *c)
@@ -328,6 +335,7 @@ static hard_verdict (*const JUDGES[HARD_N_LAWS])(hard_case *) = {
     [HARD_LAW_PUNCTUAL] = punctual,
     [HARD_LAW_OVERLAP] = overlap,
     [HARD_LAW_DEPTH] = depth,
+    [HARD_LAW_TWICE] = twice,
     [HARD_LAW_ROUGHLY] = roughly,
     [HARD_LAW_MIRROR] = mirror,
     [HARD_LAW_SIMILAR] = similar,

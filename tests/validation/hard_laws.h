@@ -15,6 +15,7 @@
     X(PUNCTUAL, "punctual", "no touch is found after the rims have overlapped; in a window one for a hundred floes")                           \
     X(OVERLAP, "overlap", "no overlap of a whole radius")                                                                                       \
     X(DEPTH, "depth", "a tenth of the accuracy changes depth by less than the accuracy")                                                        \
+    X(TWICE, "twice", "of rafts whose wear hangs on few contacts of many: a tenth of the accuracy changes depth by less than twice the accuracy") \
     X(ROUGHLY, "roughly", "where contacts hang by a hair: that changes depth by less than the accuracy or than shifting each floe by up to a millimetre does") \
     X(MIRROR, "mirror", "the mirror image of the scene gives the mirror image of the result, to rounding")                                       \
     X(SIMILAR, "similar", "a quarter of every force, or twice the speed and four times the stiffness: the same ways, to rounding")               \
@@ -33,7 +34,7 @@
     X(TOUCHES, "touches", "the floe meets the structure")                                                                                        \
     X(FLIGHT, "flight", "free flight under drag is the closed form")                                                                            \
     X(UNTOUCHED, "untouched", "no impulse, path or change of velocity")                                                                         \
-    X(REFUSES, "refuses", "an overlap of a whole radius ends the run with FW_E_NUMERIC and the floe's name")
+    X(REFUSES, "refuses", "an overlap of a whole radius ends the run with FW_E_NUMERIC and the floe's name; at the start it is refused")
 
 enum hard_law_number {
 #define X(name, key, text) HARD_LAW_##name,

@@ -25,9 +25,6 @@ typedef struct hard_scene {
     const char   *name;
     uint64_t      laws;    /* set of hard_law bits, besides those of every scene */
     uint64_t      without; /* of those: laws that mean nothing here */
-    uint64_t      waiting; /* laws that are not judged yet, */
-    uint64_t      broken;  /* and laws known to be broken: shown as such, and no failure of the suite */
-    const char   *why;     /* of both */
     hard_changes  change;
     double        speed, duration; /* [m/s], [s] */
     size_t        n;

@@ -40,6 +40,9 @@ static const column COLUMNS[] = {
     OF_RECORD(momentum_relative, "momentum books", "%.0e"),
     OF_RECORD(wear_conservation, "wear books", "%.0e"),
     OF_RECORD(energy_truncation, "energy balance", "%.1e"),
+    OF_RECORD(tries, "tries", "%.0f"),
+    OF_RECORD(refined_steps, "refined steps", "%.0f"),
+    OF_RECORD(slip_chatter, "slip chatter", "%.1e"),
     OF_RECORD(late_touches, "late touches", "%.0f"),
     OF_RECORD(force_evaluations, "force evaluations", "%.0f"),
     OF_RECORD(steps, "steps", "%.0f"),
@@ -67,8 +70,6 @@ void hard_sheet_head(FILE *to)
     fprintf(to, "|---|\n");
 }
 
-static const char *const MARK[] = {[HARD_WAITING] = "waiting", [HARD_KNOWN] = "broken, known", [HARD_BROKEN] = "BROKEN"};
-
 void hard_sheet_row(FILE *to, const hard_row *r)
 {
     fprintf(to, "| %s | %s", r->c.scene->name, fw_status_name(base(r)->status));
@@ -79,18 +80,19 @@ void hard_sheet_row(FILE *to, const hard_row *r)
     }
     fputs(" | ", to);
     for (int k = 0; k < HARD_N_LAWS; k++)
-        if (r->state[k] > HARD_HELD) fprintf(to, "%s: %s. ", hard_law_keys[k], MARK[r->state[k]]);
+        if (r->state[k] == HARD_BROKEN) fprintf(to, "%s ", hard_law_keys[k]);
     fputs("|\n", to);
 }
 
 void hard_sheet_tail(FILE *to, size_t n, const hard_row *r)
 {
-    fprintf(to, "\n## Laws not held\n\n| scene | law | found | bound | |\n|---|---|---|---|---|\n");
+    size_t n_broken = 0;
     for (size_t i = 0; i < n; i++)
-        for (int k = 0; k < HARD_N_LAWS; k++)
-            if (r[i].state[k] > HARD_HELD)
-                fprintf(to, "| %s | %s | %.2e | %.0e | %s%s%s |\n", r[i].c.scene->name, hard_law_keys[k], r[i].verdict[k].value, r[i].verdict[k].bound, MARK[r[i].state[k]],
-                        r[i].state[k] < HARD_BROKEN && r[i].c.scene->why ? ": " : "", r[i].state[k] < HARD_BROKEN && r[i].c.scene->why ? r[i].c.scene->why : "");
+        for (int k = 0; k < HARD_N_LAWS; k++) {
+            if (r[i].state[k] != HARD_BROKEN) continue;
+            if (n_broken++ == 0) fprintf(to, "\n## Laws not held\n\n| scene | law | found | bound |\n|---|---|---|---|\n");
+            fprintf(to, "| %s | %s | %.2e | %.0e |\n", r[i].c.scene->name, hard_law_keys[k], r[i].verdict[k].value, r[i].verdict[k].bound);
+        }
     fprintf(to, "\n## What the laws say\n\n| law | | scenes | held | worst of the held over its bound |\n|---|---|---|---|---|\n");
     for (int k = 0; k < HARD_N_LAWS; k++) {
         int    asked = 0, held = 0;
@@ -116,7 +118,7 @@ static void number(FILE *to, double v)
 
 void hard_sheet_json(FILE *to, size_t n, const hard_row *r)
 {
-    static const char *const STATE[] = {[HARD_HELD] = "held", [HARD_WAITING] = "waiting", [HARD_KNOWN] = "known", [HARD_BROKEN] = "broken"};
+    static const char *const STATE[] = {[HARD_HELD] = "held", [HARD_BROKEN] = "broken"};
     fprintf(to, "{\"scenes\": [\n");
     for (size_t i = 0; i < n; i++) {
         fprintf(to, "  {\"scene\": \"%s\", \"status\": \"%s\"", r[i].c.scene->name, fw_status_name(base(&r[i])->status));

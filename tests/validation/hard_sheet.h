@@ -6,7 +6,7 @@
 
 #include "validation/hard_laws.h"
 
-typedef enum hard_state { HARD_NOT_ASKED, HARD_HELD, HARD_WAITING, HARD_KNOWN, HARD_BROKEN } hard_state;
+typedef enum hard_state { HARD_NOT_ASKED, HARD_HELD, HARD_BROKEN } hard_state;
 
 typedef struct hard_row {
     hard_case    c;
