@@ -79,6 +79,12 @@ fw_status fw_depth_add(fw_depth *d, const fw_record *r, fw_msg *m)
         d->path[p] += ring_mean(d, law, p, fw_record_path(r));
     }
     d->truncation += r->energy_truncation;
+    double all = 0;
+    for (size_t k = 0; k < r->n_arcs; k++) all += ring[k] / (double)r->n_arcs;
+    d->all_load += all, d->overlap_wear += all * r->overlap_wear_share;
+    d->overlap_time += r->overlap_time_share;
+    d->overlap_most = fmax(d->overlap_most, r->max_overlap_share);
+    d->n_second += r->tries > 1;
     d->n++;
     return FW_OK;
 }

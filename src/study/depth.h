@@ -28,7 +28,10 @@ typedef struct fw_depth {
     double       *ln_load;              /* (n x n_used) its logarithm, only with a continuous temperature law; owned */
     double       *impact, *high, *path; /* (n_points) sums over records of direction means; owned */
     double        cpu_s, evaluations;   /* sums of host_cpu_s and force_evaluations over all records */
-    double        truncation;           /* sum of energy_truncation over those that did not fail */
+    double        truncation;           /* sum of energy_truncation over those that did not fail; theirs too: */
+    double        all_load, overlap_wear; /* ring means of load; of that in contacts beyond a tenth of the smaller radius [MPa^m km] */
+    double        overlap_time, overlap_most; /* sum of shares of time with such a contact; largest overlap over the smaller radius */
+    size_t        n_second; /* that finer steps brought to an end */
 } fw_depth;
 
 /* The campaign (its temperature law) must outlive it. FW_E_ARG: no such law, T reaches 0. */

@@ -95,7 +95,10 @@ static void failed_runs(fw_ledger_row *row, const fw_window *w, const fw_percent
     SAY(row->row, "failed runs");
     row->amount = 0;
     if (w->depth->n_failed == 0) {
-        SAY(row->shrinks_with, "none failed");
+        if (w->depth->n_second)
+            SAY(row->shrinks_with, "none failed; %zu of %zu at a first try, and not with finer steps", w->depth->n_second, w->depth->n);
+        else
+            SAY(row->shrinks_with, "none failed");
         SAY(row->cost_to_halve, "none");
         return;
     }
@@ -105,6 +108,23 @@ static void failed_runs(fw_ledger_row *row, const fw_window *w, const fw_percent
     SAY(row->shrinks_with, "%zu of %zu failed; counted as 0 and as infinity they give P%g %.3g .. %.3g mm",
         w->depth->n_failed, w->depth->n + w->depth->n_failed, g->percentile, low, high);
     SAY(row->cost_to_halve, "find the cause: run them again with --only-id");
+}
+
+/* The rigid disc's own limit: no step cures it. */
+static void overlaps(fw_ledger_row *row, const fw_window *w)
+{
+    const fw_depth *d = w->depth;
+    SAY(row->row, "overlaps beyond a tenth");
+    row->amount = d->all_load > 0 ? d->overlap_wear / d->all_load : 0;
+    SAY(row->cost_to_halve, "not known: stiffer contacts are another model");
+    if (!(d->overlap_time > 0)) {
+        SAY(row->shrinks_with, "none: the deepest contact was %.2g of the smaller radius", d->overlap_most);
+        return;
+    }
+    SAY(row->shrinks_with,
+        "contact.stiffness: wear in contacts deeper than a tenth of the smaller radius, where discs are no longer rigid; %.2g %% of the time, at "
+        "most %.2g of a radius",
+        100 * d->overlap_time / (double)d->n, d->overlap_most);
 }
 
 static void unmeasured(fw_ledger_row *row, const char *name, const char *shrinks_with)
@@ -133,7 +153,7 @@ static void between_years(fw_ledger_row *row, const fw_campaign *c)
 fw_status fw_ledger_rows(fw_answer *a, const fw_campaign *c, const fw_window *w, const fw_percentile_row *governing,
                          fw_msg *m)
 {
-    enum { MOST = 9 + FW_MEASURED_ROWS };
+    enum { MOST = 10 + FW_MEASURED_ROWS };
     FW_TRY(fw_alloc(&a->ledger, MOST, sizeof *a->ledger, "rows of the ledger", m));
     for (size_t i = 0; i < MOST; i++) a->ledger[i].cost_to_halve_cpu_s = NAN;
     fw_ledger_row *row = a->ledger;
@@ -141,6 +161,7 @@ fw_status fw_ledger_rows(fw_answer *a, const fw_campaign *c, const fw_window *w,
     discretisation(row++, c, &a->measured, w);
     row += domain(row, &a->measured, w);
     failed_runs(row++, w, governing);
+    overlaps(row++, w);
     unmeasured(row++, "ice field against scenario", "more realisations");
     unmeasured(row++, "law and its scatter", "laboratory and field data (a published fit has R2 66 %)");
     unmeasured(row++, "switched-off effects", "switching them on (effects:)");
