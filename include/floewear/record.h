@@ -11,8 +11,9 @@
 /* The records of a campaign are those of one generation of the program. Raised by every change that gives a realisation other numbers, and part
  * of what a campaign's hash stands for: runs begun by another generation are refused, not mixed. 2: accuracy levels of
  * November 2026; 3: awake_floes, reach; 4: watch-dogs, second tries; 5: slip watched between
- * floes too; 6: wear of stiff viscous slip, overlaps at their peak, dashpots of long steps. */
-enum { FW_RECORD_GENERATION = 6 };
+ * floes too; 6: wear of stiff viscous slip, overlaps at their peak, dashpots of long steps; 7: slip of
+ * symmetric wedges. */
+enum { FW_RECORD_GENERATION = 7 };
 
 /* Scalar columns: C type tag, name (also the HDF5 dataset and journal order), unit (UDUNITS), long name.
  * One list, so that packing, HDF5, documentation and comparison cannot drift apart. */
