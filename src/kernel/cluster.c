@@ -13,7 +13,6 @@
 
 static const double TURN_AT_END = 0.98; /* share of a step past which a turn of force counts as its end */
 static const double SHORT = 0.01;       /* step in 1/w that no turn of force is looked for in */
-static const double SLIVER = 1e-6;      /* step in 1/w */
 /* First step after a touch of two floes, over the one after a touch at that speed of the structure, where it is wear as well: there no step
  * was refused and nearly all grew by as much as they may; four times as long a one puts the energy of two floes 1.3 % out. */
 static const double BETWEEN_FLOES = 2.5;
@@ -26,7 +25,7 @@ void fw_cluster_free(fw_cluster *c)
     free(c);
 }
 
-static void find_stiffest(fw_cluster *c)
+void fw_cluster_find_stiffest(fw_cluster *c)
 {
     c->omega = 0;
     for (size_t k = 0; k < c->n_pairs; k++) c->omega = fw_larger(c->omega, c->pairs[k].law.omega);
@@ -323,87 +322,5 @@ fw_status fw_cluster_land(fw_cluster *c, const fw_books *books, double t, fw_msg
     if (!isfinite(err)) return fw_cluster_not_finite(c, books, msg);
     fw_books_weigh(c, books->setup, t - c->t0);
     c->t1 = t;
-    return FW_OK;
-}
-
-/* A contact that is taken out while the dashpot still says a force: the members' accelerations go on without it. */
-static void take_force_back(fw_cluster *c, const fw_pair *p, size_t last)
-{
-    fw_member *a = &c->members[p->a], *b = p->b == FW_WALL ? &c->wall : &c->members[p->b];
-    double     n = p->normal[last], f = p->friction[last];
-    double     fx = n * p->dir[last][0] - f * p->dir[last][1], fy = n * p->dir[last][1] + f * p->dir[last][0];
-    a->k[0][FW_VX] -= fx * a->own_inv_mass, a->k[0][FW_VY] -= fy * a->own_inv_mass, a->k[0][FW_SPIN] += f * a->turn;
-    b->k[0][FW_VX] += fx * b->own_inv_mass, b->k[0][FW_VY] += fy * b->own_inv_mass, b->k[0][FW_SPIN] += f * b->turn;
-}
-
-static fw_status watch_contact(const fw_cluster *c, const fw_books *books, const fw_pair *p, size_t last, fw_msg *msg)
-{
-    const fw_body *bodies = books->world->bodies;
-    if (!fw_lone_is(c, books)) FW_TRY(fw_watch_law(&bodies[c->members[p->a].index], p, last + 1, c->t0, msg));
-    return fw_watch_overlap(books->setup, &bodies[c->members[p->a].index], p->b == FW_WALL ? NULL : &bodies[c->members[p->b].index],
-                            p->depth[last], c->t0, msg);
-}
-
-static fw_status let_go(fw_cluster *c, const fw_books *books, int32_t *opened, size_t *n_opened, fw_msg *msg)
-{
-    size_t kept = 0, last = books->setup->method->n_stages - 1;
-    for (size_t k = 0; k < c->n_pairs; k++) {
-        fw_pair *p = &c->pairs[k];
-        if (p->b == FW_WALL) {
-            const fw_member *a = &c->members[p->a];
-            fw_body         *body = &books->world->bodies[a->index];
-            body->t_wall = c->t0;
-            FW_TRY(fw_watch_body(books->setup, body, msg));
-        }
-        FW_TRY(watch_contact(c, books, p, last, msg));
-        /* Apart, and no force; or none when the step began: then what the dashpot says of rims that come back is no force yet. */
-        if (p->depth[last] < 0 && (p->normal[last] <= 0 || p->normal[0] <= 0)) {
-            opened[(*n_opened)++] = p->candidate;
-            take_force_back(c, p, last);
-            c->members[p->a].n_pairs--;
-            if (p->b != FW_WALL) c->members[p->b].n_pairs--;
-            continue;
-        }
-        if (kept != k) c->pairs[kept] = *p;
-        p = &c->pairs[kept++];
-        p->normal[0] = p->normal[last], p->friction[0] = p->friction[last], p->slip[0] = p->slip[last];
-        p->rate[0] = p->rate[last], p->depth[0] = p->depth[last];
-        p->dir[0][0] = p->dir[last][0], p->dir[0][1] = p->dir[last][1];
-    }
-    if (kept == c->n_pairs) return FW_OK;
-    c->n_pairs = kept;
-    find_stiffest(c);
-    return FW_OK;
-}
-
-fw_status fw_cluster_commit(fw_cluster *c, const fw_books *books, int32_t *opened, size_t *n_opened, fw_msg *msg)
-{
-    size_t last = books->setup->method->n_stages - 1;
-    double h = c->t1 - c->t0;
-    if (fw_lone_is(c, books)) {
-        fw_lone_keep(c, books);
-    } else {
-        fw_books_keep(c, books);
-        fw_books_wear(c, books);
-        fw_watch_slip(c, &books->world->ledger, last);
-    }
-    books->world->ledger.steps++;
-    c->t0 = c->t1;
-    for (size_t k = 0; k < c->n_pairs; k++) {
-        fw_pair *p = &c->pairs[k];
-        p->since_touch += h;
-        p->load += p->load_tried;
-    }
-    for (size_t i = 0; i < c->n_members; i++) {
-        fw_member *m = &c->members[i];
-        fw_body   *b = &books->world->bodies[m->index];
-        b->t = c->t0;
-        for (int q = 0; q < 8; q++) m->y0[q] = m->y1[q], m->k[0][q] = m->k[last][q];
-        b->x = m->y0[FW_X], b->y = m->y0[FW_Y], b->vx = m->y0[FW_VX], b->vy = m->y0[FW_VY], b->spin = m->y0[FW_SPIN];
-        m->drag[0][0] = m->drag[last][0], m->drag[0][1] = m->drag[last][1];
-    }
-    FW_TRY(let_go(c, books, opened, n_opened, msg));
-    /* Accelerations are velocity differences over the step: after a sliver of one they are rounding noise. */
-    if (h * c->omega < SLIVER) fw_stage_start(c, books);
     return FW_OK;
 }

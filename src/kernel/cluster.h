@@ -116,7 +116,8 @@ static inline double fw_step_without_sliver(double h, double left) { return h >=
 /* The same, cut to end at t exactly, t0 < t < t1. A part of a step whose error was tolerable is taken whatever its own estimate says: ending
  * earlier would leave a gap that others have passed already. */
 fw_status fw_cluster_land(fw_cluster *c, const fw_books *b, double t, fw_msg *m);
-/* The tried step becomes truth: books, wear, bodies. Contacts that let go are taken out; opened lists their candidates. */
+void      fw_cluster_find_stiffest(fw_cluster *c); /* into omega */
+/* cluster_commit.c. The tried step becomes truth: books, wear, bodies. Contacts that let go are taken out; opened lists their candidates. */
 fw_status fw_cluster_commit(fw_cluster *c, const fw_books *b, int32_t *opened, size_t *n_opened, fw_msg *m);
 void      fw_cluster_free(fw_cluster *c);
 
