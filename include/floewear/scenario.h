@@ -109,7 +109,7 @@ typedef struct fw_model {
     size_t n_arcs;      /* of the ring, >= 72; default 360 */
     double strip_width; /* [m]; <= 0: auto (100 m) */
     double downstream;  /* floes are forgotten beyond this x [m]; <= 0: auto */
-    double max_evaluations; /* force evaluations that one realisation may take; <= 0: auto, 100 times what is expected of it */
+    double max_evaluations; /* force evaluations that one realisation may take; <= 0: auto, 100 times what is expected of it, 1e9 at least */
     fw_numerics numerics;
 } fw_model;
 

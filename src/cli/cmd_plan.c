@@ -259,7 +259,7 @@ static void print_text(const arguments *a, const fw_campaign *c, const fw_choice
     if (c->model.max_evaluations > 0)
         printf("  one that takes more than %.3g fails (exposure.max_force_evaluations)\n", c->model.max_evaluations);
     else
-        printf("  one that takes more than 100 times what is expected of it fails (exposure.max_force_evaluations: auto)\n");
+        printf("  one that takes more than 100 times what is expected of it and than 1e9 fails (exposure.max_force_evaluations: auto)\n");
     if (p->n < wanted) printf("\npilot: %s; --pilot %zu runs %zu all the same\n", p->n ? "cut short, its next window may take minutes" : "none, its first window may take minutes", wanted, wanted);
     if (p->n) {
         printf("\npilot of %zu realisations: %.3g CPU s each in the mean, %.3g at most, %zu failed\n", p->n, p->cpu,

@@ -152,7 +152,7 @@ static const fw_key EXPOSURE[] = {
     AUTO("warm_up", warm_up, "s", "auto", FROM_TO(0, 1e9),
          "time simulated before the window; 0 s: starts in a placed field"),
     AUTO("max_force_evaluations", max_evaluations, "1", "auto", FROM_TO(1, 1e18),
-         "a realisation that takes more fails; auto: 100 times what is expected of it"),
+         "a realisation that takes more fails; auto: 100 times what is expected of it, 1e9 at least"),
 };
 SECTION(fw_table_exposure, "exposure", "what one realisation simulates", EXPOSURE);
 

@@ -18,7 +18,7 @@ static const struct point {
 enum { N_POINTS = sizeof POINTS / sizeof POINTS[0] };
 
 static const double WITH_ACCURACY = -0.4; /* power of accuracy / 1 % */
-static const double ASTRAY = 100, LEAST = 1e7;
+static const double ASTRAY = 100, LEAST = 1e9; /* a minute or so: slow currents and stiff contacts cost more than is expected of them */
 
 static double of_concentration(double c)
 {
