@@ -13,6 +13,7 @@ bool fw_books_overlap(fw_ledger *l, double small, double depth)
     return depth > 0.1 * small;
 }
 
+static const double ROUNDING = 1e-9; /* of the cap of friction, which is solved for exactly */
 static const double QUASI_STATIC = 3; /* step in 1/w */
 
 double fw_books_deepest(double depth0, double rate0, double depth1, double rate1, double h)
@@ -32,11 +33,11 @@ static void shove(fw_member *m, double jx, double jy, double rub)
     m->shoved += fw_length(jx, jy) * m->own_inv_mass, m->twisted += fabs(rub * m->turn);
 }
 
-static void weigh_pair(fw_cluster *c, const fw_method *me, const fw_pair *p, double h, fw_step_books *to)
+static void weigh_pair(fw_cluster *c, const fw_method *me, fw_pair *p, double h, fw_step_books *to)
 {
     fw_member *a = &c->members[p->a], *b = p->b == FW_WALL ? NULL : &c->members[p->b];
     size_t     last = me->n_stages - 1;
-    double     jx = 0, jy = 0, rub = 0, push = 0, dashpot = 0, dropped = 0, friction = 0;
+    double     jx = 0, jy = 0, rub = 0, push = 0, dashpot = 0, dropped = 0, friction = 0, beyond = 0;
     for (size_t s = 0; s <= last; s++) {
         double hb = h * me->b[s], n = p->normal[s], f = p->friction[s], d = p->depth[s], w = p->rate[s];
         jx += hb * (n * p->dir[s][0] - f * p->dir[s][1]), jy += hb * (n * p->dir[s][1] + f * p->dir[s][0]);
@@ -47,8 +48,10 @@ static void weigh_pair(fw_cluster *c, const fw_method *me, const fw_pair *p, dou
         else
             dropped -= hb * spring;
         friction -= hb * f * p->slip[s];
+        beyond = fw_larger(beyond, fw_larger(-n, fabs(f) - p->law.mu * n * (1 + ROUNDING)));
         if (p->b == FW_WALL) to->peak_force = fw_larger(to->peak_force, n);
     }
+    p->is_lawful = beyond <= 0;
     double d0 = fw_larger(0, p->depth[0]), d1 = fw_larger(0, p->depth[last]), stored = 0.5 * p->law.k * (d1 * d1 - d0 * d0);
     /* A step much longer than 1/w follows a contact that is pressed quasi-statically. Its dashpot takes next to nothing, and the closing rates of
      * single stages are what tolerance leaves of 0: squared, with weights of both signs, they made 43 % of a balance. The mean rate is right. */
@@ -88,6 +91,7 @@ void fw_books_weigh(fw_cluster *c, const fw_setup *set, double h)
         m->gained[0] = j[0], m->gained[1] = j[1], m->gained[2] = 0;
         m->shoved = fw_length(j[0], j[1]), m->twisted = 0;
     }
+    c->is_weighed = true;
     for (size_t k = 0; k < c->n_pairs; k++) weigh_pair(c, me, &c->pairs[k], h, to);
     for (size_t i = 0; i < c->n_members; i++) {
         const fw_member *m = &c->members[i];
@@ -113,6 +117,8 @@ void fw_books_keep(fw_cluster *c, const fw_books *books)
     size_t               last = books->setup->method->n_stages - 1;
     double               h = c->t1 - c->t0;
     bool                 is_beyond = false;
+    if (!c->is_weighed) fw_books_weigh(c, books->setup, h);
+    c->is_weighed = false;
     l->kinetic_change += s->kinetic_change, l->impulse_work += s->impulse_work, l->impulse_size += s->impulse_size;
     l->drag_work += s->drag_work, l->dashpot += s->dashpot, l->friction += s->friction, l->dropped += s->dropped;
     l->into_springs += s->into_springs;

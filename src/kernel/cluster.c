@@ -320,7 +320,7 @@ fw_status fw_cluster_land(fw_cluster *c, const fw_books *books, double t, fw_msg
     if (fw_lone_is(c, books)) return fw_lone_land(c, books, t, msg);
     double err = attempt(c, books, t - c->t0);
     if (!isfinite(err)) return fw_cluster_not_finite(c, books, msg);
-    fw_books_weigh(c, books->setup, t - c->t0);
+    c->is_weighed = false;
     c->t1 = t;
     return FW_OK;
 }

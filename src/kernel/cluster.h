@@ -59,6 +59,7 @@ typedef struct fw_pair {
     double  wear_until, wear_angle; /* ring angle at the end of the last interval that wore, and when */
     double  load, load_tried; /* of this touch so far, and of the tried step: see wear_error in cluster.c */
     int32_t candidate;        /* its entry in the lists of who may touch whom */
+    bool    is_lawful; /* in the weighed step, at all stages: no tension, friction within its cap */
     int8_t  jumped; /* slip went from cap to cap of friction in the step before, up or down: watch.c */
 } fw_pair;
 
@@ -80,7 +81,8 @@ typedef struct fw_cluster {
     fw_pair   *pairs;
     fw_lone    lone; /* the tried step of a lone floe on the structure */
     double        dissipated; /* since the first contact [J] */
-    fw_step_books tried;      /* of the tried step, but for a lone floe's */
+    fw_step_books tried;      /* of the tried step, but for a lone floe's; */
+    bool          is_weighed; /* and whether it has been: a step that was cut is weighed when it is committed */
 } fw_cluster;
 
 /* Where committed steps leave their traces. */

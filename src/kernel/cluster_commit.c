@@ -14,15 +14,14 @@ static void take_force_back(fw_cluster *c, const fw_pair *p, size_t last)
     b->k[0][FW_VX] += fx * b->own_inv_mass, b->k[0][FW_VY] += fy * b->own_inv_mass, b->k[0][FW_SPIN] += f * b->turn;
 }
 
-static fw_status watch_contact(const fw_cluster *c, const fw_books *books, const fw_pair *p, size_t last, fw_msg *msg)
+static fw_status watch_contact(const fw_cluster *c, const fw_books *books, const fw_pair *p, size_t last, bool is_lone, fw_msg *msg)
 {
-    const fw_body *bodies = books->world->bodies;
-    if (!fw_lone_is(c, books)) FW_TRY(fw_watch_law(&bodies[c->members[p->a].index], p, last + 1, c->t0, msg));
-    return fw_watch_overlap(books->setup, &bodies[c->members[p->a].index], p->b == FW_WALL ? NULL : &bodies[c->members[p->b].index],
-                            p->depth[last], c->t0, msg);
+    const fw_body *bodies = books->world->bodies, *a = &bodies[c->members[p->a].index];
+    if (!is_lone && !p->is_lawful) return fw_watch_unlawful(a, c->t0, msg);
+    return fw_watch_overlap(books->setup, a, p->b == FW_WALL ? NULL : &bodies[c->members[p->b].index], p->depth[last], c->t0, msg);
 }
 
-static fw_status let_go(fw_cluster *c, const fw_books *books, int32_t *opened, size_t *n_opened, fw_msg *msg)
+static fw_status let_go(fw_cluster *c, const fw_books *books, bool is_lone, int32_t *opened, size_t *n_opened, fw_msg *msg)
 {
     size_t kept = 0, last = books->setup->method->n_stages - 1;
     for (size_t k = 0; k < c->n_pairs; k++) {
@@ -33,7 +32,7 @@ static fw_status let_go(fw_cluster *c, const fw_books *books, int32_t *opened, s
             body->t_wall = c->t0;
             FW_TRY(fw_watch_body(books->setup, body, msg));
         }
-        FW_TRY(watch_contact(c, books, p, last, msg));
+        FW_TRY(watch_contact(c, books, p, last, is_lone, msg));
         /* Apart, and no force; or none when the step began: then what the dashpot says of rims that come back is no force yet. */
         if (p->depth[last] < 0 && (p->normal[last] <= 0 || p->normal[0] <= 0)) {
             opened[(*n_opened)++] = p->candidate;
@@ -58,7 +57,8 @@ fw_status fw_cluster_commit(fw_cluster *c, const fw_books *books, int32_t *opene
 {
     size_t last = books->setup->method->n_stages - 1;
     double h = c->t1 - c->t0;
-    if (fw_lone_is(c, books)) {
+    bool   is_lone = fw_lone_is(c, books);
+    if (is_lone) {
         fw_lone_keep(c, books);
     } else {
         fw_books_keep(c, books);
@@ -80,7 +80,7 @@ fw_status fw_cluster_commit(fw_cluster *c, const fw_books *books, int32_t *opene
         b->x = m->y0[FW_X], b->y = m->y0[FW_Y], b->vx = m->y0[FW_VX], b->vy = m->y0[FW_VY], b->spin = m->y0[FW_SPIN];
         m->drag[0][0] = m->drag[last][0], m->drag[0][1] = m->drag[last][1];
     }
-    FW_TRY(let_go(c, books, opened, n_opened, msg));
+    FW_TRY(let_go(c, books, is_lone, opened, n_opened, msg));
     /* Accelerations are velocity differences over the step: after a sliver of one they are rounding noise. */
     if (h * c->omega < SLIVER) fw_stage_start(c, books);
     return FW_OK;

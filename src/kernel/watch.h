@@ -17,8 +17,8 @@ void fw_watch_slip(fw_cluster *c, fw_ledger *l, size_t last);
 fw_status fw_watch_body(const fw_setup *set, const fw_body *b, fw_msg *m);
 /* A closed contact after a step: overlap below the smaller radius, where discs would go through each other. other: NULL, the structure. */
 fw_status fw_watch_overlap(const fw_setup *set, const fw_body *b, const fw_body *other, double depth, double t, fw_msg *m);
-/* The same contact's law at every stage: no tension, friction within its cap. */
-fw_status fw_watch_law(const fw_body *b, const fw_pair *p, size_t n_stages, double t, fw_msg *m);
+/* The same contact's law was broken at some stage: there was tension, or friction beyond its cap. */
+fw_status fw_watch_unlawful(const fw_body *b, double t, fw_msg *m);
 /* A touch found when rims overlap already by more than a tolerance explains: a contact that was missed. */
 fw_status fw_watch_late(const fw_setup *set, fw_ledger *l, const fw_body *b, double other_radius, double depth, double t, fw_msg *m);
 

@@ -50,9 +50,9 @@ FAULTS = {
     "a spring that pulls": (
         "kernel/stage.c", "    double push = fw_larger(0, (p->alpha + p->beta * free) * p->to_push),",
         "    double push = fw_larger(-1e3, (p->alpha + p->beta * free) * p->to_push),", "window",
-        ["tension"]),
+        ["tension, or friction"]),
     "friction has no cap": (
-        "kernel/stage.c", "cap = p->mu * push;", "cap = 2 * p->mu * push;", "window", ["beyond its cap"]),
+        "kernel/stage.c", "cap = p->mu * push;", "cap = 2 * p->mu * push;", "window", ["tension, or friction"]),
     "contacts are lost when a cluster falls apart": (
         "kernel/flock.c", "            if (find_root(k->root, p.a) != (int32_t)r) continue;\n",
         "            if (find_root(k->root, p.a) != (int32_t)r || (p.b != FW_WALL && p.a % 3 == 1)) continue;\n", "window",
