@@ -25,6 +25,8 @@
 #include "field/cover.h"
 #include "field/nearby.h"
 
+#define FW_PACKING_GAP 1e-6 /* [m] least distance between rims: far above rounding at 1e8 m from the origin */
+
 typedef struct fw_packing_box {
     double x0, x1, y0, y1; /* [m] */
     bool   wraps_y;
@@ -52,6 +54,7 @@ typedef struct fw_packing {
     size_t          n_most, n_discs; /* obstacles are discs n_most .. n_discs - 1; n_most is rounded up */
     double         *x, *y, *r;       /* (n_discs and a few more, which lie nowhere: x = INFINITY) [m] */
     int32_t        *queue;           /* ring of own floes to be freed */
+    size_t          queue_head, n_queued;
     unsigned char  *is_queued;
     size_t          x_capacity, y_capacity, r_capacity, queue_capacity, queued_capacity;
     fw_packing_cost cost; /* since the workspace was zeroed */
@@ -72,5 +75,21 @@ fw_status fw_packing_place(fw_packing *p, size_t n, const double *r, uint64_t n_
 /* Area of the own floes that overlap nothing over the area of the box: what a failed packing reached. */
 fw_status fw_packing_free_share(fw_packing *p, double *share, fw_msg *m);
 void      fw_packing_free(fw_packing *p);
+
+/* --- for pushing.h --- */
+
+/* The exact grid over all discs, listed in the order in which they came; built when has_cover says that it is not. */
+fw_status fw_packing_cover(fw_packing *p, fw_msg *m);
+/* One more own floe, overlapping or not. */
+fw_status fw_packing_add(fw_packing *p, double x, double y, double r, fw_msg *m);
+
+static inline void fw_packing_random_place(const fw_packing *p, fw_uniforms *random, double *x, double *y)
+{
+    const fw_packing_box *b = &p->box;
+    double                tx = b->x0 + (b->x1 - b->x0) * fw_uniforms_next(random);
+    double                ty = b->y0 + (b->y1 - b->y0) * fw_uniforms_next(random);
+    *x = tx < p->x_last ? tx : p->x_last;
+    *y = ty < p->y_last ? ty : p->y_last;
+}
 
 #endif
