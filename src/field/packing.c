@@ -1,6 +1,5 @@
 #include "field/packing.h"
 
-#include <gsl/gsl_math.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -13,7 +12,7 @@
  * became three times as cheap; changing the number would change the floes of every dense field). At 200 tries
  * 0.6 % of the floes are put down crowded at 60 %, 7 % at 65 %. Looking at 80 places for a crowded floe instead of 20
  * halves the pushes and still costs more. With these numbers the mixes pack to 80 %, one class of equal floes (h = 8.04
- * m) to 75 %. */
+ * m) to 75 %; what does not is grown (growing.h). */
 enum {
     PLAIN_TRIES = 192, /* of a call, each against every disc: about what lists of the nearby ones cost to build */
     MAX_TRIES = 200    /* refusals before a floe is put down crowded */
@@ -160,17 +159,6 @@ fw_status fw_packing_place(fw_packing *p, size_t n, const double *r, uint64_t n_
         }
     }
     return fw_pushing_free_all(p, random, n_left, m);
-}
-
-fw_status fw_packing_free_share(fw_packing *p, double *share, fw_msg *m)
-{
-    double sum = 0.0;
-    FW_TRY(fw_packing_cover(p, m));
-    for (size_t i = 0; i < p->n_own; i++) {
-        if (!fw_pushing_is_taken(p, p->x[i], p->y[i], p->r[i], (int32_t)i)) sum += M_PI * p->r[i] * p->r[i];
-    }
-    *share = sum / ((p->box.x1 - p->box.x0) * (p->box.y1 - p->box.y0));
-    return FW_OK;
 }
 
 void fw_packing_free(fw_packing *p)

@@ -72,11 +72,9 @@ fw_status fw_packing_obstacles(fw_packing *p, size_t n, const double *x, const d
  * when everything was tried; 0 means success. FW_E_NOMEM otherwise only. */
 fw_status fw_packing_place(fw_packing *p, size_t n, const double *r, uint64_t n_expected, fw_uniforms *random,
                            size_t *n_left, fw_msg *m);
-/* Area of the own floes that overlap nothing over the area of the box: what a failed packing reached. */
-fw_status fw_packing_free_share(fw_packing *p, double *share, fw_msg *m);
 void      fw_packing_free(fw_packing *p);
 
-/* --- for pushing.h --- */
+/* --- for pushing.h and growing.h --- */
 
 /* The exact grid over all discs, listed in the order in which they came; built when has_cover says that it is not. */
 fw_status fw_packing_cover(fw_packing *p, fw_msg *m);

@@ -34,7 +34,7 @@ bool fw_pushing_is_taken(const fw_packing *p, double x, double y, double r, int3
     return false;
 }
 
-/* Discs that disc-to-be `self` at (x, y) comes nearer to than FW_PACKING_GAP, each once; at most MAX_OVERLAPS of them. */
+/* Discs that disc-to-be `self` at (x, y) comes nearer to than FW_PACKING_GAP, each once; at most MAX_OVERLAPS. */
 static int list_overlaps(const fw_packing *p, double x, double y, double r, int32_t self, int32_t list[MAX_OVERLAPS])
 {
     fw_cover_box b = fw_cover_under(&p->cover, x, y, r + FW_PACKING_GAP);

@@ -58,6 +58,7 @@ static void every_floe_has_the_bits_it_always_had(void **state)
         {"8.04 m 60 %", mix_single(8.04), 0.6, 2, -10, 1, 0x3b9df6ae},
         {"0.0855 m 5 %", mix_single(0.0855), 0.05, 1, -1, 0, 0x0483b1f8},
         {"far away, 40 %", mix_paper(false), 0.4, -1048550, -1048560, 0, 0x1e486175},
+        {"4 m 80 %, grown", mix_single(4.0), 0.8, 2, -1, 0, 0xf17e8911},
     };
     bool is_same = true;
     for (size_t k = 0; k < sizeof strips / sizeof *strips; k++) {
