@@ -139,16 +139,15 @@ fw_status fw_file_size(int fd, const char *path, uint64_t *size, fw_msg *m)
     return FW_OK;
 }
 
-fw_status fw_file_sync_folder(const char *path, fw_msg *m)
+/* Of the folder that path lies in. Without memory of its own: it comes after the rename, when there is no way back. */
+static fw_status sync_folder(const char *path, fw_msg *m)
 {
-    char       *folder = NULL;
+    char        folder[4096];
     const char *slash = strrchr(path, '/');
-    FW_TRY(fw_file_suffixed(&folder, path, "", m));
-    if (slash == NULL) {
-        strcpy(folder, path[0] != '\0' ? "." : "");
-    } else {
-        folder[slash == path ? 1 : slash - path] = '\0'; /* "/x" lies in "/" */
-    }
+    size_t      n = slash == path ? 1 : slash != NULL ? (size_t)(slash - path) : 0; /* "/x" lies in "/" */
+    FW_CHECK(n < sizeof folder, m, FW_E_IO, "folder %s: %s", path, strerror(ENAMETOOLONG));
+    memcpy(folder, n > 0 ? path : ".", n > 0 ? n : 1);
+    folder[n > 0 ? n : 1] = '\0';
     int fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     int code = fd < 0 ? errno : 0;
     if (fd >= 0) {
@@ -157,22 +156,20 @@ fw_status fw_file_sync_folder(const char *path, fw_msg *m)
         if (fsync(fd) != 0 && errno != EINVAL) code = errno;
         close(fd);
     }
-    fw_status status = code == 0 ? FW_OK : fw_fail(m, FW_E_IO, "folder %s: %s", folder, strerror(code));
-    free(folder);
-    return status;
+    FW_CHECK(code == 0, m, FW_E_IO, "folder %s: %s", folder, strerror(code));
+    return FW_OK;
 }
 
 fw_status fw_file_publish(int fd, const char *from, const char *to, fw_msg *m)
 {
     FW_CHECK(fsync(fd) == 0, m, FW_E_IO, "%s: fsync: %s", from, strerror(errno));
     FW_CHECK(rename(from, to) == 0, m, FW_E_IO, "%s: cannot be renamed to %s: %s", from, to, strerror(errno));
-    return fw_file_sync_folder(to, m);
+    return sync_folder(to, m);
 }
 
 fw_status fw_file_suffixed(char **out, const char *path, const char *suffix, fw_msg *m)
 {
-    /* room for "." when a folder's name is made in place */
-    size_t n = strlen(path) + strlen(suffix) + 2;
+    size_t n = strlen(path) + strlen(suffix) + 1;
     FW_TRY(fw_alloc(out, n, 1, "name of a file", m));
     strcpy(*out, path);
     strcat(*out, suffix);

@@ -31,9 +31,9 @@ fw_status fw_file_write_at(int fd, const char *path, const void *bytes, size_t n
 fw_status fw_file_read_at(int fd, const char *path, void *bytes, size_t n, uint64_t offset, fw_msg *m);
 fw_status fw_file_size(int fd, const char *path, uint64_t *size, fw_msg *m);
 
-/* fsync fd, rename from to to, fsync the folder. On error `from` may still be there: the caller unlinks it. */
+/* fsync fd, rename from to to, fsync the folder that it lies in; takes no memory. On error `from` may still be there: the
+ * caller unlinks it. */
 fw_status fw_file_publish(int fd, const char *from, const char *to, fw_msg *m);
-fw_status fw_file_sync_folder(const char *path, fw_msg *m); /* of the folder that path lies in */
 
 /* path + suffix, allocated; the caller frees. */
 fw_status fw_file_suffixed(char **out, const char *path, const char *suffix, fw_msg *m);
