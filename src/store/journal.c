@@ -200,7 +200,6 @@ static fw_status scan_file(fw_journal *j, fw_msg *m)
     free(bytes);
     j->n_committed = s.n_good;
     j->torn_bytes = size - block_offset(j, s.n_good);
-    if (status == FW_OK && s.n_good > 0) { status = fw_alloc(&j->block, 1, j->block_size, "a block of a journal", m); }
     if (status == FW_OK) status = build_index(j, s.entries, s.n, m);
     free(s.entries);
     return status;
@@ -223,11 +222,12 @@ static fw_status allocate(fw_journal **out, const char *path, fw_msg *m)
 }
 
 /* Sizes are known: what every open journal needs. */
-static fw_status prepare(fw_journal *j, fw_msg *m)
+static fw_status prepare(fw_journal *j, const fw_journal_header *h, fw_msg *m)
 {
-    j->block_size = fw_journal_block_size(j->header.n_arcs, j->header.n_laws);
-    FW_TRY(fw_record_init(&j->one, j->header.n_arcs, j->header.n_laws, m));
-    return fw_record_init(&j->other, j->header.n_arcs, j->header.n_laws, m);
+    j->block_size = fw_journal_block_size(h->n_arcs, h->n_laws);
+    FW_TRY(fw_alloc(&j->block, 1, j->block_size, "a block of a journal", m));
+    FW_TRY(fw_record_init(&j->one, h->n_arcs, h->n_laws, m));
+    return fw_record_init(&j->other, h->n_arcs, h->n_laws, m);
 }
 
 static fw_status write_header(int fd, const char *path, const fw_journal_header *h, fw_msg *m)
@@ -244,7 +244,7 @@ static fw_status write_header(int fd, const char *path, const fw_journal_header 
 }
 
 /* Make a new journal under PATH.tmp and give it its name. *is_taken: somebody else made PATH in the meantime. */
-static fw_status create(fw_journal *j, bool is_fresh, bool *is_taken, fw_msg *m)
+static fw_status create(fw_journal *j, const fw_journal_header *h, bool is_fresh, bool *is_taken, fw_msg *m)
 {
     char       *temporary = NULL, *old = NULL;
     struct stat s;
@@ -256,7 +256,7 @@ static fw_status create(fw_journal *j, bool is_fresh, bool *is_taken, fw_msg *m)
     if (status == FW_OK) {
         /* Who holds PATH.tmp alone may make PATH; it may have been made before we got hold of it. */
         *is_taken = !is_fresh && stat(j->path, &s) == 0;
-        if (!*is_taken) status = write_header(fd, temporary, &j->header, m);
+        if (!*is_taken) status = write_header(fd, temporary, h, m);
         if (status == FW_OK && !*is_taken && is_fresh && rename(j->path, old) != 0 && errno != ENOENT) {
             status = fw_fail(m, FW_E_IO, "%s: cannot be renamed to %s: %s", j->path, old, strerror(errno));
         }
@@ -294,27 +294,26 @@ static fw_status go_on(fw_journal *j, uint64_t max_realisations, fw_msg *m)
     return FW_OK;
 }
 
-static fw_status open_writer(fw_journal *j, const fw_journal_header *wanted, bool is_fresh, fw_msg *m)
+/* All memory is taken before a file is made or changed. */
+static fw_status open_writer(fw_journal *j, fw_journal_header *wanted, bool is_fresh, fw_msg *m)
 {
+    FW_TRY(prepare(j, wanted, m));
     for (bool is_taken = true; is_taken;) {
         is_taken = false;
         FW_TRY(fw_file_claim(&j->fd, j->path, false, m));
         if (j->fd >= 0 && !is_fresh) {
             FW_TRY(fw_journal_header_read(&j->header, j->fd, j->path, m));
-            FW_TRY(fw_journal_header_match(&j->header, wanted, j->path, m));
-            FW_TRY(prepare(j, m));
+            FW_TRY(fw_journal_header_match(&j->header, wanted, j->path, m)); /* sizes too */
             return go_on(j, wanted->max_realisations, m);
         }
         int old_fd = j->fd; /* keeps the lock of the old file until the new one is in its place */
         j->fd = -1;
-        j->header = *wanted;
-        fw_status status = create(j, is_fresh, &is_taken, m);
-        j->header = (fw_journal_header){0};
+        fw_status status = create(j, wanted, is_fresh, &is_taken, m);
         if (old_fd >= 0) close(old_fd);
         FW_TRY(status);
     }
-    FW_TRY(fw_journal_header_read(&j->header, j->fd, j->path, m));
-    FW_TRY(prepare(j, m));
+    j->header = *wanted;
+    wanted->settings = NULL; /* the journal's now */
     return FW_OK;
 }
 
@@ -327,8 +326,6 @@ fw_status fw_journal_open(fw_journal **out, const char *path, const fw_campaign 
     fw_status status = allocate(&j, path, m);
     if (status == FW_OK) {
         status = open_writer(j, &wanted, is_fresh, m);
-        if (status == FW_OK && j->block == NULL)
-            status = fw_alloc(&j->block, 1, j->block_size, "a block of a journal", m);
         j->is_writer = true;
         if (status == FW_OK)
             *out = j;
@@ -352,7 +349,7 @@ fw_status fw_journal_open_read(fw_journal **out, const char *path, const fw_camp
         if (status == FW_OK) status = fw_journal_header_match(&j->header, &wanted, path, m);
         fw_journal_header_free(&wanted);
     }
-    if (status == FW_OK) status = prepare(j, m);
+    if (status == FW_OK) status = prepare(j, &j->header, m);
     if (status == FW_OK) status = scan_file(j, m);
     if (status == FW_OK)
         *out = j;
