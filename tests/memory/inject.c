@@ -150,18 +150,3 @@ uint64_t inject_hash_file(uint64_t hash, const char *path)
     fclose(f);
     return inject_hash(hash, "end", 3);
 }
-
-int inject_enter_folder(void **state)
-{
-    static char folder[] = "memory-test-XXXXXX";
-    *state = folder;
-    return mkdtemp(folder) != NULL && chdir(folder) == 0 ? 0 : -1;
-}
-
-int inject_leave_folder(void **state)
-{
-    char command[64];
-    if (chdir("..") != 0) return -1;
-    snprintf(command, sizeof command, "rm -rf '%s'", (const char *)*state);
-    return system(command);
-}

@@ -44,8 +44,4 @@ void inject_walk(const inject_case *c);
 uint64_t inject_hash(uint64_t hash, const void *bytes, size_t n);
 uint64_t inject_hash_file(uint64_t hash, const char *path); /* its bytes; an absent file counts as such */
 
-/* A new empty folder to work in; for cmocka's group set-up and tear-down. */
-int inject_enter_folder(void **state);
-int inject_leave_folder(void **state);
-
 #endif
