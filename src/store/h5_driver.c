@@ -15,14 +15,26 @@ typedef struct driver_info { /* what travels in the file access list */
     fw_h5_disk *disk;
 } driver_info;
 
+static void remember(fw_h5_disk *disk, int code, haddr_t offset, size_t n)
+{
+    if (disk->code != 0) return;
+    disk->code = code;
+    disk->offset = offset;
+    disk->n_bytes = n;
+}
+
 static H5FD_t *driver_open(const char *name, unsigned flags, hid_t access_list, haddr_t max_address)
 {
     (void)name;
     (void)flags;
     (void)max_address;
     const driver_info *info = H5Pget_driver_info(access_list);
-    driver_file       *f = info != NULL ? calloc(1, sizeof *f) : NULL;
-    if (f == NULL) return NULL;
+    if (info == NULL) return NULL;
+    driver_file *f = calloc(1, sizeof *f);
+    if (f == NULL) {
+        remember(info->disk, ENOMEM, 0, sizeof *f);
+        return NULL;
+    }
     f->disk = info->disk;
     f->eof = info->disk->size;
     return &f->pub;
@@ -84,14 +96,6 @@ static herr_t driver_read(H5FD_t *file, H5FD_mem_t type, hid_t list, haddr_t add
         done += (size_t)k;
     }
     return 0;
-}
-
-static void remember(fw_h5_disk *disk, int code, haddr_t offset, size_t n)
-{
-    if (disk->code != 0) return;
-    disk->code = code;
-    disk->offset = offset;
-    disk->n_bytes = n;
 }
 
 static herr_t driver_write(H5FD_t *file, H5FD_mem_t type, hid_t list, haddr_t address, size_t n, const void *bytes)

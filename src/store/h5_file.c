@@ -1,5 +1,6 @@
 #include "store/h5_file.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -97,6 +98,13 @@ static fw_status check_seal(const fw_h5_file *f, uint64_t *n, fw_msg *m)
 
 /* ---- open and close ---- */
 
+/* HDF5 says "open failed" of a driver that found no memory too. */
+static fw_status fail_open(const fw_h5_file *f, fw_status code, const char *what, fw_msg *m)
+{
+    FW_CHECK(f->disk.code != ENOMEM, m, FW_E_NOMEM, "out of memory: opening %s, %zu bytes", f->path, f->disk.n_bytes);
+    return fw_h5_fail(f, code, what, m);
+}
+
 static fw_status access_list(fw_h5_file *f, hid_t *list, fw_msg *m)
 {
     f->driver = fw_h5_driver_register();
@@ -147,7 +155,7 @@ static fw_status create_hdf5(fw_h5_file *f, fw_msg *m)
     if (status == FW_OK && H5Pset_obj_track_times(creation, 0) >= 0) {
         f->id = H5Fcreate(f->temporary, H5F_ACC_TRUNC, creation, list);
     }
-    if (status == FW_OK && f->id < 0) status = fw_h5_fail(f, FW_E_IO, "HDF5 file", m);
+    if (status == FW_OK && f->id < 0) status = fail_open(f, FW_E_IO, "HDF5 file", m);
     if (list >= 0) H5Pclose(list);
     if (creation >= 0) H5Pclose(creation);
     return status;
@@ -196,7 +204,7 @@ fw_status fw_h5_file_open(fw_h5_file *f, const char *path, fw_msg *m)
     if (status == FW_OK) status = access_list(f, &list, m);
     if (status == FW_OK) {
         f->id = H5Fopen(path, H5F_ACC_RDONLY, list);
-        if (f->id < 0) status = fw_h5_fail(f, FW_E_FORMAT, "no HDF5 file", m);
+        if (f->id < 0) status = fail_open(f, FW_E_FORMAT, "no HDF5 file", m);
     }
     if (list >= 0) H5Pclose(list);
     if (status != FW_OK) fw_h5_file_close(f);
