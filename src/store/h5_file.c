@@ -146,10 +146,10 @@ void fw_h5_file_close(fw_h5_file *f)
 
 static fw_status create_hdf5(fw_h5_file *f, fw_msg *m)
 {
-    hid_t list = H5I_INVALID_HID, creation = H5Pcreate(H5P_FILE_CREATE);
     FW_TRY(fw_file_suffixed(&f->temporary, f->path, ".tmp", m));
     FW_TRY(fw_file_claim(&f->disk.fd, f->temporary, true, m));
     FW_CHECK(ftruncate(f->disk.fd, 0) == 0, m, FW_E_IO, "%s: cannot be emptied", f->temporary);
+    hid_t     list = H5I_INVALID_HID, creation = H5Pcreate(H5P_FILE_CREATE);
     fw_status status = access_list(f, &list, m);
     /* No times, so that two runs of one campaign differ in what is named host, cpu or wall only. */
     if (status == FW_OK && H5Pset_obj_track_times(creation, 0) >= 0) {

@@ -38,12 +38,11 @@ static fw_status read_texts(const fw_h5_file *f, const char *name, hid_t attribu
 {
     char    **raw;
     fw_status status = FW_OK;
-    hid_t     memory = H5Tcopy(H5T_C_S1);
-    if (memory < 0 || H5Tset_size(memory, H5T_VARIABLE) < 0 || H5Tset_cset(memory, H5T_CSET_UTF8) < 0) {
-        return fw_h5_fail(f, FW_E_INTERNAL, name, m);
-    }
     FW_TRY(fw_alloc(&raw, n, sizeof *raw, "texts of an HDF5 file", m));
-    if (n > 0 && H5Aread(attribute, memory, raw) < 0) status = fw_h5_fail(f, FW_E_FORMAT, name, m);
+    hid_t memory = H5Tcopy(H5T_C_S1);
+    if (memory < 0 || H5Tset_size(memory, H5T_VARIABLE) < 0 || H5Tset_cset(memory, H5T_CSET_UTF8) < 0)
+        status = fw_h5_fail(f, FW_E_INTERNAL, name, m);
+    if (status == FW_OK && n > 0 && H5Aread(attribute, memory, raw) < 0) status = fw_h5_fail(f, FW_E_FORMAT, name, m);
     for (size_t i = 0; i < n; i++) {
         const char *text = raw[i] != NULL ? raw[i] : "";
         if (status == FW_OK && strnlen(text, MAX_TEXT_BYTES) == MAX_TEXT_BYTES) status = bad(f, name, "a text", m);
@@ -53,7 +52,7 @@ static fw_status read_texts(const fw_h5_file *f, const char *name, hid_t attribu
         if (raw[i] != NULL) H5free_memory(raw[i]);
     }
     free(raw);
-    H5Tclose(memory);
+    if (memory >= 0) H5Tclose(memory);
     return status;
 }
 
