@@ -91,6 +91,7 @@ static fw_status check_kind(const char *path, const char *filetype, fw_msg *m)
     if (stat(path, &s) != 0) return FW_OK;
     fw_status status = fw_tables_open(&old, path, filetype, &why);
     fw_tables_close(old);
+    FW_CHECK(status != FW_E_NOMEM, m, FW_E_NOMEM, "%s", why.text); /* that says nothing of the file */
     FW_CHECK(status == FW_OK, m, FW_E_MISMATCH, "will not replace a file that is no %s of ours: %s", filetype,
              why.text);
     return FW_OK;

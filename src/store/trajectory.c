@@ -95,15 +95,18 @@ static fw_status check_place(const char *path, fw_msg *m)
     struct stat there;
     fw_h5_file  old;
     char       *type = NULL;
+    fw_msg      why = {""};
     if (stat(path, &there) != 0) return FW_OK; /* absent, or creating it says what is wrong */
     FW_CHECK(S_ISREG(there.st_mode), m, FW_E_IO, "%s is not a regular file: a trajectory cannot take its place", path);
-    bool is_ours = fw_h5_file_open(&old, path, NULL) == FW_OK;
-    if (is_ours) {
-        is_ours = fw_h5_get_text(&old, "filetype", &type, NULL) == FW_OK && strcmp(type, FILETYPE) == 0;
+    fw_status status = fw_h5_file_open(&old, path, &why);
+    if (status == FW_OK) {
+        status = fw_h5_get_text(&old, "filetype", &type, &why);
+        if (status == FW_OK && strcmp(type, FILETYPE) != 0) status = FW_E_FORMAT;
         free(type);
         fw_h5_file_close(&old);
     }
-    FW_CHECK(is_ours, m, FW_E_MISMATCH, "%s is there already and is no trajectory of floewear: choose another name", path);
+    FW_CHECK(status != FW_E_NOMEM, m, FW_E_NOMEM, "%s", why.text); /* that says nothing of the file */
+    FW_CHECK(status == FW_OK, m, FW_E_MISMATCH, "%s is there already and is no trajectory of floewear: choose another name", path);
     return FW_OK;
 }
 
