@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include <argp.h>
+#include <gsl/gsl_errno.h>
 
 #include "base/keys.h"
 #include "base/version.h"
@@ -56,6 +57,7 @@ static int main_unknown(const char *word)
 int main(int argc, char **argv)
 {
     signal(SIGXFSZ, SIG_IGN); /* a file size limit is a full disk: exit code 4, not a death by signal */
+    gsl_set_error_handler_off(); /* GSL ends the program otherwise: without memory, or at a law far out of its range */
     argp_err_exit_status = 2; /* of argp in every command: wrong usage */
     if (argc < 2) {
         main_help(stderr);

@@ -70,8 +70,9 @@ static double bisect(const fw_distribution *d, double origin, double top, double
         double mid = hi > 4 * lo ? sqrt(lo) * sqrt(hi) : 0.5 * (lo + hi);
         if (mid <= lo || mid >= hi) break;
         /* the smaller of both tails carries the digits */
-        bool is_below = p <= q ? base_P(d, origin + mid) < p : base_Q(d, origin + mid) > q;
-        if (is_below) {
+        double tail = p <= q ? base_P(d, origin + mid) : base_Q(d, origin + mid);
+        if (isnan(tail)) return NAN; /* beyond what GSL can sum up: no number rather than a wrong one */
+        if (p <= q ? tail < p : tail > q) {
             lo = mid;
         } else {
             hi = mid;
@@ -304,6 +305,7 @@ double fw_distribution_quantile(const fw_distribution *d, double u)
            q_high = base_Q(d, d->high);
     double p = (1 - u) * p_low + u * p_high, q = (1 - u) * q_low + u * q_high;
     double x = base_inverse(d, p, q);
+    if (isnan(x)) return NAN;
     return fmin(fmax(x, fw_distribution_min(d)), fw_distribution_max(d));
 }
 
