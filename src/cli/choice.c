@@ -94,7 +94,7 @@ static fw_status choose(fw_campaign *c, const fw_choice_wanted *w, const char *p
         return FW_OK;
     }
     fw_status s = read_choice(path, c, &f, &why);
-    if (s != FW_OK && w->from) {
+    if (s == FW_E_NOMEM || (s != FW_OK && w->from)) { /* no memory: not to go on with other numerics for that */
         *m = why;
         return s;
     }
