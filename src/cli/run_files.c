@@ -68,6 +68,7 @@ static fw_status files_check_results(const fw_run_files *f, bool is_fresh, fw_ms
     is_same = status == FW_OK && old.hash == f->campaign->hash;
     if (status == FW_OK) fw_campaign_free(&old);
     fw_results_close(r);
+    FW_CHECK(status != FW_E_NOMEM, m, FW_E_NOMEM, "%s", why.text);
     FW_CHECK(is_same, m, FW_E_MISMATCH,
              "%s holds the results of another campaign; choose another name with -o, or --fresh to replace it",
              f->results_path);
