@@ -18,10 +18,18 @@ bool fw_argument_number(const char *text, int64_t *out)
 
 error_t fw_argument_duration(const char *option, const char *text, struct argp_state *state, double *seconds)
 {
-    fw_msg m = {.text = ""};
-    if (fw_config_duration(text, seconds, &m) == FW_OK && *seconds > 0) return 0;
+    fw_msg    m = {.text = ""};
+    fw_status s = fw_config_duration(text, seconds, &m);
+    if (s == FW_OK && *seconds > 0) return 0;
+    if (s == FW_E_NOMEM) return fw_argument_no_memory(state, &m);
     argp_error(state, "%s %s: %s", option, text, m.text[0] ? m.text : "more than 0 s is wanted");
     return EINVAL;
+}
+
+error_t fw_argument_no_memory(struct argp_state *state, const fw_msg *m)
+{
+    argp_failure(state, fw_status_exit_code(FW_E_NOMEM), 0, "%s", m->text);
+    return ENOMEM;
 }
 
 error_t fw_campaign_arguments_parse(int key, char *text, struct argp_state *state, fw_campaign_arguments *a)
@@ -33,7 +41,8 @@ error_t fw_campaign_arguments_parse(int key, char *text, struct argp_state *stat
             argp_error(state, "--set %s: KEY=VALUE is wanted", text);
             return EINVAL;
         }
-        if (fw_grow(&a->sets, &a->sets_capacity, a->n_sets + 1, sizeof *a->sets, "--set", &m) != FW_OK) return ENOMEM;
+        if (fw_grow(&a->sets, &a->sets_capacity, a->n_sets + 1, sizeof *a->sets, "--set", &m) != FW_OK)
+            return fw_argument_no_memory(state, &m);
         a->sets[a->n_sets++] = text;
         return 0;
     case FW_KEY_SEED:

@@ -7,6 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "floewear/status.h"
+
 typedef struct fw_campaign_arguments {
     const char  *campaign; /* the file; borrowed from argv, as the sets are */
     const char **sets;     /* (n_sets); owned, free() it */
@@ -28,5 +30,9 @@ error_t fw_campaign_arguments_parse(int key, char *text, struct argp_state *stat
 bool fw_argument_number(const char *text, int64_t *out);
 /* A duration of more than 0 s; says what is wrong with the option's. */
 error_t fw_argument_duration(const char *option, const char *text, struct argp_state *state, double *seconds);
+
+/* argp's own errors are wrong usage: this one is said and leaves with FW_E_NOMEM's code, or is returned where argp must not
+ * end the program. */
+error_t fw_argument_no_memory(struct argp_state *state, const fw_msg *m);
 
 #endif

@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "cli/accuracy_file.h"
+#include "cli/campaign_arguments.h"
 #include "cli/commands.h"
 #include "cli/config.h"
 #include "cli/output.h"
@@ -34,12 +35,15 @@ static const char report_doc[] = "Percentiles with intervals, service life and l
 
 /* Split "1,6" and hand each word on; a word that add refuses ends the program's parse with what is wrong with it. */
 static error_t report_list(struct argp_state *state, const char *option, char *text,
-                           bool (*add)(report_arguments *, const char *))
+                           fw_status (*add)(report_arguments *, const char *, fw_msg *))
 {
     for (char *word = text; word;) {
         char *comma = strchr(word, ',');
         if (comma) *comma = '\0';
-        if (!add(state->input, word)) {
+        fw_msg    m = {.text = ""};
+        fw_status s = add(state->input, word, &m);
+        if (s == FW_E_NOMEM) return fw_argument_no_memory(state, &m);
+        if (s != FW_OK) {
             argp_error(state, "--%s: '%s' is wrong; numbers with commas between them are wanted, as in %s", option,
                        word, strcmp(option, "points") == 0 ? "1,6 (from 1 on)" : "50,90,95,99 (above 0, below 100)");
             return EINVAL;
@@ -49,28 +53,26 @@ static error_t report_list(struct argp_state *state, const char *option, char *t
     return 0;
 }
 
-static bool add_point(report_arguments *a, const char *word)
+static fw_status add_point(report_arguments *a, const char *word, fw_msg *m)
 {
     char *end;
     errno = 0;
     unsigned long long n = strtoull(word, &end, 10);
-    if (errno || end == word || *end || word[0] == '-' || n == 0) return false;
-    if (fw_grow(&a->points, &a->points_capacity, a->n_points + 1, sizeof *a->points, "points", NULL) != FW_OK)
-        return false;
+    if (errno || end == word || *end || word[0] == '-' || n == 0) return FW_E_INPUT;
+    FW_TRY(fw_grow(&a->points, &a->points_capacity, a->n_points + 1, sizeof *a->points, "points", m));
     a->points[a->n_points++] = (size_t)n;
-    return true;
+    return FW_OK;
 }
 
-static bool add_percentile(report_arguments *a, const char *word)
+static fw_status add_percentile(report_arguments *a, const char *word, fw_msg *m)
 {
     char  *end;
     double p = strtod(word[0] == 'P' ? word + 1 : word, &end);
-    if (end == word || *end || !(p > 0 && p < 100)) return false;
-    if (fw_grow(&a->percentiles, &a->percentiles_capacity, a->n_percentiles + 1, sizeof *a->percentiles, "percentiles",
-                NULL) != FW_OK)
-        return false;
+    if (end == word || *end || !(p > 0 && p < 100)) return FW_E_INPUT;
+    FW_TRY(fw_grow(&a->percentiles, &a->percentiles_capacity, a->n_percentiles + 1, sizeof *a->percentiles,
+                   "percentiles", m));
     a->percentiles[a->n_percentiles++] = p;
-    return true;
+    return FW_OK;
 }
 
 static error_t report_parse(int key, char *text, struct argp_state *state)

@@ -395,9 +395,11 @@ int fw_cmd_run(int argc, char **argv)
     s = fw_ranks_start(&argc, &argv, &rank, &n_ranks, &m);
     if (s == FW_OK) {
         unsigned flags = ARGP_NO_EXIT | (rank > 0 ? ARGP_NO_ERRS : 0u);
+        error_t  wrong = argp_parse(&argp, argc, argv, flags, NULL, &a);
 
-        if (argp_parse(&argp, argc, argv, flags, NULL, &a) != 0) {
-            s = FW_E_INPUT; /* argp has said it on rank 0, and every rank leaves for the same reason */
+        if (wrong) {
+            /* argp has said it on rank 0, and every rank leaves for the same reason */
+            s = wrong == ENOMEM ? FW_E_NOMEM : FW_E_INPUT;
         } else if (rank == 0) {
             s = run_lead(&a, &m);
         } else {
