@@ -169,15 +169,15 @@ static void whole(void **state)
     (void)state;
     help_save(file, (const unsigned char *)text, strlen(text));
     session s = {.is_resumed = false};
-    inject_walk(&(inject_case){.name = "campaign", .begin = begin, .run = run, .end = end, .self = &s, .stride = 11});
+    inject_walk(&(inject_case){.name = "campaign", .begin = begin, .run = run, .end = end, .self = &s, .stride = 13});
     s = (session){.is_resumed = true};
     inject_walk(
-        &(inject_case){.name = "campaign made again", .begin = begin, .run = run, .end = end, .self = &s, .stride = 29});
+        &(inject_case){.name = "campaign made again", .begin = begin, .run = run, .end = end, .self = &s, .stride = 37});
     unlink(results);
     make_choice();
     s = (session){.is_resumed = false};
     inject_walk(&(inject_case){
-        .name = "campaign with chosen numerics", .begin = begin, .run = run, .end = end, .self = &s, .stride = 19});
+        .name = "campaign with chosen numerics", .begin = begin, .run = run, .end = end, .self = &s, .stride = 31});
     inject_walk(&(inject_case){.name = "choice of numerics", .run = choose, .end = end_choose, .self = &s});
     inject_walk(&(inject_case){
         .name = "files of a campaign", .begin = begin_files, .run = open_files, .end = end_files, .self = &s});

@@ -154,8 +154,8 @@ static void realisations(void **state)
     } cases[] = {
         {"realisation, 40 %, 20 s", 0.4, 20, {0}, FW_WEAR_HERMITE, 1},
         {"realisation, 10 %, 900 s", 0.1, 900, {0}, FW_WEAR_HERMITE, 0},
-        {"realisation, 60 %, 60 s", 0.6, 60, {0}, FW_WEAR_HERMITE, 0},
-        {"realisation, 75 %, 5 s", 0.75, 5, {0}, FW_WEAR_HERMITE, 0},
+        {"realisation, 60 %, 30 s", 0.6, 30, {0}, FW_WEAR_HERMITE, 0},
+        {"realisation, 75 %, 1 s", 0.75, 1, {0}, FW_WEAR_HERMITE, 0},
         {"realisation, Euler, 40 %, 5 s", 0.4, 5, {.scheme = FW_SCHEME_EULER, .step = 1e-3}, FW_WEAR_NAIVE, 0},
         {"realisation, RK4, 40 %, 5 s", 0.4, 5, {.scheme = FW_SCHEME_RK4, .step = 2e-3}, FW_WEAR_HERMITE, 0},
     };
@@ -163,7 +163,7 @@ static void realisations(void **state)
         window w = {.scenario = {.seed = 11, .id = 2, .concentration = cases[i].concentration, .speed = 2}};
         fw_model_defaults(&w.model);
         w.model.window = cases[i].window;
-        w.model.warm_up = 5;
+        w.model.warm_up = 1;
         w.model.numerics = cases[i].numerics;
         w.model.numerics.wear_rule = cases[i].rule;
         inject_walk(&(inject_case){.name = cases[i].name,

@@ -75,12 +75,12 @@ static void answers(void **state)
     asking q = {.records = {.sigma = 1, .fail_every = 20}};
     q.campaign = made_up_campaign(q.bearings);
     ask("answer of constant scenes", &q, 100);
-    q.campaign.points.n = 6;
+    q.campaign.points.n = 2;
     q.campaign.site.temperature = made_up_law(FW_DIST_UNIFORM, -12, -2);
     q.campaign.site.direction = made_up_law(FW_DIST_NORMAL, 20, 25);
     q.campaign.service.allowance = 20;
     ask("answer of scattered scenes", &q, 60);
-    q.campaign.points.n = 2;
+    q.campaign.service.is_asked = false;
     ask("answer of 120 records", &q, 120); /* beyond 20000 entries: joined in bins */
     q.campaign.precision.quantity = FW_QUANTITY_MEAN;
     ask("answer about a mean", &q, 30);
