@@ -175,6 +175,42 @@ static void realisations(void **state)
     }
 }
 
+/* ---- an excerpt of a realisation ---- */
+
+typedef struct excerpt {
+    fw_model    model;
+    fw_scenario scenario;
+    fw_scene    scene;
+} excerpt;
+
+static fw_status cut_out(void *self, fw_msg *m)
+{
+    excerpt *e = self;
+    return fw_realise_excerpt(&e->model, &e->scenario, 10, 2, NULL, &e->scene, m);
+}
+
+static uint64_t end_excerpt(void *self, fw_status status)
+{
+    excerpt *e = self;
+    uint64_t h = 0;
+    if (status == FW_OK) {
+        assert_true(e->scene.n_floes > 0);
+        h = inject_hash(0, e->scene.floes, e->scene.n_floes * sizeof *e->scene.floes);
+    }
+    fw_scene_free(&e->scene); /* after a failure too: it is empty then */
+    return h;
+}
+
+static void excerpts(void **state)
+{
+    (void)state;
+    excerpt e = {.scenario = {.seed = 11, .id = 2, .concentration = 0.4, .speed = 2}};
+    fw_model_defaults(&e.model);
+    e.model.window = 20;
+    e.model.warm_up = 1;
+    inject_walk(&(inject_case){.name = "excerpt", .run = cut_out, .end = end_excerpt, .self = &e, .stride = 1});
+}
+
 /* ---- scenes ---- */
 
 typedef struct scene_case {
@@ -238,6 +274,7 @@ int main(void)
         cmocka_unit_test(fields),
         cmocka_unit_test(a_field_goes_on),
         cmocka_unit_test(realisations),
+        cmocka_unit_test(excerpts),
         cmocka_unit_test(scenes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
