@@ -58,6 +58,12 @@ void __wrap_free(void *p)
 
 /* ---- the walk ---- */
 
+#ifdef __SANITIZE_ADDRESS__ /* ten times slower and more */
+enum { EVERY = 20, STEP = 4 };
+#else
+enum { EVERY = 64, STEP = 10 };
+#endif
+
 static int count_open_files(void)
 {
     int  n = 0;
@@ -125,7 +131,7 @@ void inject_walk(const inject_case *c)
         outcome next = run_once(c, 0, false);
         check_success(c, n, "after a failure of", first.hash, &next);
         n_failed += 2;
-        n += c->stride > 0 ? c->stride : n < 64 ? 1 : n / 10;
+        n += c->stride > 0 ? c->stride : n < EVERY ? 1 : n / STEP;
     }
     outcome last = run_once(c, again.n_asked + 1, true);
     check_success(c, again.n_asked + 1, "with a failure beyond the last,", first.hash, &last);

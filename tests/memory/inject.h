@@ -33,7 +33,7 @@ typedef struct inject_case {
      * what begin and run made. */
     uint64_t  (*end)(void *self, fw_status status);
     void       *self;
-    long        stride;    /* from one n to the next; 0: every n up to 64, then steps of a tenth */
+    long        stride;    /* from one n to the next; 0: every n up to 64 (sanitizers: 20), then steps of a tenth (a quarter) */
     bool        may_go_on; /* some allocations only save work: FW_OK without them, if the result is the same */
 } inject_case;
 
