@@ -21,6 +21,8 @@ static void ranks_set_defaults(void)
         setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
         setenv("OMPI_MCA_pml", "ob1", 0);
         setenv("OMPI_MCA_btl", "self", 0);
+        /* All that run alone share one session folder; two that start and end together take it from each other. */
+        setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
     } else if (size && local && strcmp(size, local) == 0) {
         setenv("OMPI_MCA_pml", "ob1", 0);
         setenv("OMPI_MCA_btl", "self,vader", 0);
