@@ -68,6 +68,19 @@ static fw_status load_block(fw_journal *j, uint64_t number, const unsigned char 
     return FW_OK;
 }
 
+/* A block whose checksum is right may still hold no record of this program: name file and place. */
+static fw_status load_record(fw_journal *j, uint64_t number, fw_record *r, fw_msg *m)
+{
+    const unsigned char *block = NULL;
+    FW_TRY(load_block(j, number, &block, m));
+    fw_status status = fw_journal_block_read(block, j->block_size, r, m);
+    if (status != FW_OK) {
+        fw_msg_prefix(m, "%s: record number %" PRIu64 " at byte %" PRIu64 ": ", j->path, number + 1,
+                      block_offset(j, number));
+    }
+    return status;
+}
+
 /* ---- index ---- */
 
 typedef struct entry {
@@ -110,11 +123,8 @@ static fw_status reserve(fw_journal *j, size_t n, fw_msg *m)
  * program that can do better. */
 static fw_status which_counts(fw_journal *j, entry first, entry second, bool *is_second, fw_msg *m)
 {
-    const unsigned char *block = NULL;
-    FW_TRY(load_block(j, first.block, &block, m));
-    FW_TRY(fw_journal_block_read(block, j->block_size, &j->one, m));
-    FW_TRY(load_block(j, second.block, &block, m));
-    FW_TRY(fw_journal_block_read(block, j->block_size, &j->other, m));
+    FW_TRY(load_record(j, first.block, &j->one, m));
+    FW_TRY(load_record(j, second.block, &j->other, m));
     bool is_same = fw_journal_has_same_bits(&j->one, &j->other);
     *is_second = !is_same && j->one.status != FW_OK;
     FW_CHECK(is_same || *is_second, m, FW_E_FORMAT,
@@ -450,14 +460,12 @@ uint64_t fw_journal_torn(const fw_journal *j) { return j->torn_bytes; }
 
 fw_status fw_journal_read(fw_journal *j, uint64_t id, fw_record *r, fw_msg *m)
 {
-    const unsigned char *block;
-    size_t               at = find(j, id);
+    size_t at = find(j, id);
     FW_CHECK(at < j->n && j->ids[at] == id, m, FW_E_ARG, "%s: no realisation %" PRIu64, j->path, id);
     FW_CHECK(r->n_arcs == j->header.n_arcs && r->n_laws == j->header.n_laws, m, FW_E_ARG,
              "%s: records of %zu arcs and %zu laws, asked for %zu and %zu", j->path, j->header.n_arcs, j->header.n_laws,
              r->n_arcs, r->n_laws);
-    FW_TRY(load_block(j, j->blocks[at], &block, m));
-    return fw_journal_block_read(block, j->block_size, r, m);
+    return load_record(j, j->blocks[at], r, m);
 }
 
 fw_status fw_journal_facts_of(const char *path, fw_journal_facts *out, fw_msg *m)

@@ -68,8 +68,8 @@ static inline void fuzz_config_free(fuzz_config *c)
 static inline void fuzz_check_config_refusal(const fuzz_config *c, fw_status status, const fw_msg *m, const char *file,
                                              double started)
 {
-    FUZZ_LAW(status == FW_E_INPUT || status == FW_E_UNSUPPORTED || status == FW_E_IO, "%s: %s",
-             fw_status_name(status), m->text);
+    FUZZ_LAW(status == FW_E_INPUT || status == FW_E_UNSUPPORTED || status == FW_E_IO, "%s: %s", fw_status_name(status),
+             m->text);
     bool names_other = (c->n_sets > 0 && strstr(m->text, "--set") != NULL) || strstr(m->text, "table.csv") != NULL;
     fuzz_check_refusal(status, m, names_other ? NULL : file, started);
 }

@@ -53,8 +53,7 @@ static void check_scenarios(const fw_campaign *c)
     for (uint64_t id = 0; id < 8; id++) {
         fw_scenario s;
         fw_campaign_scenario(c, id, &s);
-        FUZZ_LAW(s.concentration >= 0 && s.concentration <= FW_MAX_CONCENTRATION, "concentration %g",
-                 s.concentration);
+        FUZZ_LAW(s.concentration >= 0 && s.concentration <= FW_MAX_CONCENTRATION, "concentration %g", s.concentration);
         FUZZ_LAW(s.speed >= 0 && isfinite(s.speed), "speed %g", s.speed);
         FUZZ_LAW(s.mix < c->model.n_mixes && (c->site.n_cells == 0 || s.cell < c->site.n_cells), "mix %u cell %u",
                  s.mix, s.cell);
