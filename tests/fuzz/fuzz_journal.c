@@ -14,6 +14,7 @@
 
 enum seal { SEAL_HEADER = 1, SEAL_SLOT = 2, SEAL_BLOCKS = 4, SEAL_RECORD_SIZE = 8, SEAL_RECORDS = 16 };
 enum { AT_ARCS = 40, AT_LAWS = 44, AT_RECORD = 48, AT_LENGTH = 120, AT_SETTINGS = 128 };
+enum { MOST_ARCS = 1024 }; /* a million are possible, and cost a fuzzer that clears their memory a tenth of a second */
 
 static const char *const files[] = {"f.journal", "f.journal.tmp", "f.journal.old", NULL};
 
@@ -53,6 +54,7 @@ static void seal(char *bytes, size_t n, unsigned what, unsigned left)
     if (n < AT_SETTINGS) return;
     uint64_t arcs = get(bytes + AT_ARCS, 4), laws = get(bytes + AT_LAWS, 4), n_settings = get(bytes + AT_LENGTH, 8);
     if (arcs > 1u << 20 || laws > FW_MAX_LAWS || n_settings > n - AT_SETTINGS) return;
+    if ((what & SEAL_HEADER) && arcs > MOST_ARCS) put(bytes + AT_ARCS, arcs %= MOST_ARCS, 4);
     size_t end = AT_SETTINGS + (size_t)n_settings, block = fw_journal_block_size((size_t)arcs, (size_t)laws);
     if (what & SEAL_RECORD_SIZE) put(bytes + AT_RECORD, fw_record_packed_size((size_t)arcs, (size_t)laws), 8);
     if (n - end < 4 + FW_JOURNAL_SLOT_SIZE) return;
