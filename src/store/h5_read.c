@@ -6,6 +6,7 @@
 #include "store/h5_data.h"
 
 enum { MAX_TEXTS = 1 << 16, MAX_TEXT_BYTES = 1 << 28 };
+enum { MAX_CHUNK_BYTES = 1 << 24 }; /* twice the largest of ours, a ring of 2^20 arcs */
 
 static fw_status bad(const fw_h5_file *f, const char *name, const char *wanted, fw_msg *m)
 {
@@ -129,13 +130,36 @@ static bool has_shape(hid_t dataset, fw_h5_wanted *w)
     return good;
 }
 
+/* The seal vouches for what is in the file. A dataset may also name other files that its values are to be read from, a
+ * pipe that nobody fills among them, and a chunk of gigabytes that a few deflated bytes grow into. */
+static bool has_values_here(hid_t dataset)
+{
+    hsize_t      chunk[3] = {0}, n_bytes;
+    hid_t        list = H5Dget_create_plist(dataset), type = H5Dget_type(dataset);
+    H5D_layout_t layout = list >= 0 ? H5Pget_layout(list) : H5D_LAYOUT_ERROR;
+    bool         good = type >= 0 && (layout == H5D_COMPACT || layout == H5D_CONTIGUOUS || layout == H5D_CHUNKED) &&
+                H5Pget_external_count(list) == 0;
+    if (good && layout == H5D_CHUNKED) {
+        int rank = H5Pget_chunk(list, 3, chunk);
+        n_bytes = H5Tget_size(type);
+        good = rank > 0 && rank <= 3;
+        for (int i = 0; good && i < rank; i++) { /* HDF5's chunks have dimensions below 2^32 */
+            n_bytes *= chunk[i];
+            good = n_bytes <= MAX_CHUNK_BYTES;
+        }
+    }
+    if (type >= 0) H5Tclose(type);
+    if (list >= 0) H5Pclose(list);
+    return good;
+}
+
 fw_status fw_h5_open_dataset(const fw_h5_file *f, const char *path, fw_h5_wanted *w, hid_t *dataset, fw_msg *m)
 {
     *dataset = H5Dopen2(f->id, path, H5P_DEFAULT);
-    if (*dataset >= 0 && has_type(*dataset, w) && has_shape(*dataset, w)) return FW_OK;
+    if (*dataset >= 0 && has_type(*dataset, w) && has_values_here(*dataset) && has_shape(*dataset, w)) return FW_OK;
     if (*dataset >= 0) H5Dclose(*dataset);
     *dataset = H5I_INVALID_HID;
-    return bad(f, path, "a dataset of the right type and shape", m);
+    return bad(f, path, "a dataset of the right type and shape with its values in this file", m);
 }
 
 fw_status fw_h5_read_rows(const fw_h5_file *f, hid_t dataset, hid_t memory_type, hsize_t first, hsize_t n, void *values,

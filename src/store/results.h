@@ -47,7 +47,7 @@ fw_status fw_results_write(const char *path, const fw_campaign *c, const fw_reco
 
 typedef struct fw_results fw_results;
 /* FW_E_IO: cannot be read. FW_E_FORMAT: no results file of ours, damaged (checked by its seal before HDF5 sees a byte
- * of it), datasets missing or of other shapes or types. FW_E_MISMATCH: whole, but of another version. On error *out is NULL. */
+ * of it), datasets missing, of other shapes or types, or with values in other files. FW_E_MISMATCH: whole, but of another version. On error *out is NULL. */
 fw_status   fw_results_open(fw_results **out, const char *path, fw_msg *m);
 void        fw_results_close(fw_results *r);                                /* NULL is fine */
 const char *fw_results_campaign_text(const fw_results *r);                  /* as the file was read; sets not applied */

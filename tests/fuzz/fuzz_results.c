@@ -12,7 +12,7 @@
 #include "store/h5_file.h"
 #include "store/results.h"
 
-static const char *const files[] = {"f.h5", "f.h5.tmp", "pipe", NULL};
+static const char *const files[] = {"f.h5", "f.h5.tmp", "f.h5.pipe", NULL};
 
 static char path[FUZZ_PATH];
 
@@ -131,7 +131,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (size == 0) return 0;
     fuzz_enter_folder(files);
     fuzz_path(path, files[0]);
-    fuzz_path(pipe, "pipe");
+    fuzz_path(pipe, "f.h5.pipe");
     mkfifo(pipe, 0600);
     if (!make_file(data, size, &built)) return 0;
 

@@ -47,7 +47,7 @@ typedef struct recipe {
 } recipe;
 
 typedef struct plan {
-    fuzz_built *sizes;
+    const char *path;
     size_t      n;
     recipe      objects[MAX_OBJECTS];
     bool        has_group;
@@ -152,11 +152,11 @@ static void spoil(plan *p, const uint8_t order[4])
     }
 }
 
-static void make_plan(plan *p, const uint8_t *orders, size_t n_orders, fuzz_built *sizes)
+static void make_plan(plan *p, const char *path, const uint8_t *orders, size_t n_orders, fuzz_built *sizes)
 {
     memset(long_text, 'x', sizeof long_text - 1);
     *sizes = (fuzz_built){.n = orders[0] % 17, .n_laws = orders[1] % (FW_MAX_LAWS + 2), .n_arcs = orders[2] % 80};
-    *p = (plan){.sizes = sizes, .n = COLUMNS + fw_n_record_columns, .has_group = true};
+    *p = (plan){.path = path, .n = COLUMNS + fw_n_record_columns, .has_group = true};
     FUZZ_LAW(p->n <= MAX_OBJECTS, "%zu objects", p->n);
     for (size_t i = 0; i < p->n; i++) {
         recipe *r = &p->objects[i];
@@ -243,7 +243,7 @@ static void *make_values(const recipe *r, size_t object, size_t n, hid_t *memory
 
 /* ---- into the file ---- */
 
-static hid_t creation_list(const recipe *r, bool *is_late)
+static hid_t creation_list(const recipe *r, const char *path, bool *is_late)
 {
     hid_t   list = H5Pcreate(H5P_DATASET_CREATE), space;
     hsize_t chunk[3], all = 8;
@@ -258,8 +258,8 @@ static hid_t creation_list(const recipe *r, bool *is_late)
     *is_late = r->layout == ELSEWHERE || r->layout == VIRTUAL;
     if (r->layout == EARLY && all < MAX_VALUES) H5Pset_alloc_time(list, H5D_ALLOC_TIME_EARLY);
     if (r->layout == ELSEWHERE) {
-        char pipe[FUZZ_PATH]; /* whoever opens it waits */
-        fuzz_path(pipe, "pipe");
+        char pipe[FUZZ_PATH + 8]; /* whoever opens it waits */
+        snprintf(pipe, sizeof pipe, "%s.pipe", path);
         H5Pset_external(list, r->chunk % 2 ? pipe : "/dev/zero", 0, all);
     }
     if (r->layout == VIRTUAL && r->rank > 0 && (space = H5Screate_simple(r->rank, r->dims, NULL)) >= 0) {
@@ -270,17 +270,17 @@ static hid_t creation_list(const recipe *r, bool *is_late)
     return list;
 }
 
-static void put_data(hid_t at, const char *name, const recipe *r, size_t object)
+static void put_data(hid_t at, const char *path, const recipe *r, size_t object)
 {
     bool    is_late, is_small = true;
     hsize_t n = 1;
-    hid_t   type = type_of(r), list = creation_list(r, &is_late), id = -1, memory_type = -1;
+    hid_t   type = type_of(r), list = creation_list(r, path, &is_late), id = -1, memory_type = -1;
     hid_t   space = r->rank < 1 ? H5Screate(r->rank < 0 ? H5S_NULL : H5S_SCALAR)
                                 : H5Screate_simple(r->rank, r->dims, NULL);
     for (int i = 0; i < r->rank; i++) is_small = is_small && r->dims[i] < MAX_VALUES && (n *= r->dims[i]) < MAX_VALUES;
     if (type >= 0 && space >= 0) {
-        id = object < N_ATTRIBUTES ? H5Acreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT)
-                                   : H5Dcreate2(at, name, type, space, H5P_DEFAULT, list, H5P_DEFAULT);
+        id = object < N_ATTRIBUTES ? H5Acreate2(at, name_of(object), type, space, H5P_DEFAULT, H5P_DEFAULT)
+                                   : H5Dcreate2(at, name_of(object), type, space, H5P_DEFAULT, list, H5P_DEFAULT);
     }
     if (id >= 0 && r->is_written && r->rank >= 0 && n > 0 && is_small && !is_late) {
         void *values = make_values(r, object, (size_t)n, &memory_type);
@@ -303,11 +303,11 @@ static void put_object(const plan *p, hid_t file, hid_t group, size_t i)
     char          other[96];
     snprintf(other, sizeof other, "/realisations/%s", name_of(r->other));
     if (i < N_ATTRIBUTES) {
-        if (r->place == HERE) put_data(file, name_of(i), r, i);
+        if (r->place == HERE) put_data(file, p->path, r, i);
         return;
     }
     switch (r->place) {
-    case HERE: put_data(group, name_of(i), r, i); break;
+    case HERE: put_data(group, p->path, r, i); break;
     case GROUP:
         if ((id = H5Gcreate2(group, name_of(i), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)) >= 0) H5Gclose(id);
         break;
@@ -328,7 +328,7 @@ bool fuzz_build_results(const char *path, const uint8_t *orders, size_t n_orders
     fw_h5_file f;
     hid_t      group = -1;
     if (n_orders < 3) return false;
-    make_plan(&p, orders, n_orders, out);
+    make_plan(&p, path, orders, n_orders, out);
     FUZZ_LAW(fw_h5_file_create(&f, path, NULL) == FW_OK, "%s cannot be made", path);
     if (p.has_group) group = H5Gcreate2(f.id, "realisations", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     for (size_t i = 0; i < p.n; i++) put_object(&p, f.id, group, i);
