@@ -45,7 +45,9 @@ static fw_status check_distances(const fw_reader *r, const fw_node *list, const 
         }
         for (size_t k = 0; k < i; k++) {
             const fw_floe *b = &s->floes[k];
-            double         gap = hypot(a->x - b->x, a->y - b->y) - (a->diameter + b->diameter) / 2;
+            double         dx = a->x - b->x, dy = a->y - b->y, touch = (a->diameter + b->diameter) / 2;
+            if (fabs(dx) >= touch || fabs(dy) >= touch) continue; /* nearly all of 20000 floes' pairs, in no time */
+            double gap = hypot(dx, dy) - touch;
             if (-gap > OVERLAP_ALLOWED) {
                 return fw_yaml_fail(list->values[i], r->m,
                                     "floes[%zu] and floes[%zu] overlap by %g m, wanted at most a touch", k + 1, i + 1,

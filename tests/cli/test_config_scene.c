@@ -10,6 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "cli/config_check.h"
 
 static void sketch(void **state)
@@ -75,8 +76,43 @@ static void floes_may_touch(void **state)
     assert_int_equal(unlink(scratch), 0);
 }
 
+/* As many as a file may hold, the last one on the first: refused within a second of processor time. */
+static void many_floes(void **state)
+{
+    enum { N = 21900, ROW = 200, LINE = 64 };
+    fw_scene s;
+    fw_msg   m = {""};
+    size_t   n = 1;
+    char    *list = malloc((N + 2) * LINE);
+    (void)state;
+
+    assert_non_null(list);
+    list[0] = '[';
+    for (int i = 0; i <= N; i++) {
+        n += (size_t)snprintf(list + n, LINE, "{x: %dm,y: %dm,diameter: 2m,thickness: .5m},", 10 + 2 * (i % N % ROW),
+                              2 * (i % N / ROW));
+    }
+    list[n - 1] = ']';
+    list[n] = '\0';
+    snprintf(scratch, sizeof scratch, "floewear-scene-XXXXXX");
+    int fd = mkstemp(scratch);
+    assert_true(fd >= 0 && close(fd) == 0);
+    double started = fw_cpu_seconds();
+    assert_int_equal(read_floes(&s, list, &m), FW_E_INPUT);
+    double took = fw_cpu_seconds() - started;
+    assert_non_null(strstr(m.text, "floes[1] and floes[21901] overlap"));
+#ifndef __SANITIZE_ADDRESS__
+    if (took > 1) fail_msg("%.2f s", took);
+#else
+    (void)took;
+#endif
+    assert_int_equal(unlink(scratch), 0);
+    free(list);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sketch), cmocka_unit_test(floes_may_touch)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(sketch), cmocka_unit_test(floes_may_touch),
+                                       cmocka_unit_test(many_floes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
