@@ -24,7 +24,9 @@ enum {
     OFFSET_LENGTH = 120,
     OFFSET_SETTINGS = 128
 };
-enum { MAX_SETTINGS = 1 << 28, MAX_ARCS = 1 << 20 }; /* far above any campaign: a hostile header asks for no memory */
+/* Far above any campaign, whose settings stay below 64 KiB: a hostile header asks for no memory, and naming what differs
+ * takes no minute. */
+enum { MAX_SETTINGS = 1 << 20, MAX_ARCS = 1 << 20 };
 
 _Static_assert(sizeof((fw_journal_header *)0)->name == N_NAME, "the name has one size in memory and file");
 _Static_assert(sizeof((fw_campaign *)0)->name == N_NAME, "the name has one size in memory and file");

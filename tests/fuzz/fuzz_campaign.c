@@ -14,6 +14,7 @@ static void check_settings(const fw_campaign *c)
 {
     FUZZ_LAW(c->settings != NULL && c->hash == fw_fnv1a64(c->settings, strlen(c->settings)), "%016llx",
              (unsigned long long)c->hash);
+    FUZZ_LAW(strlen(c->settings) < 65536, "%zu bytes; a journal takes no more than a MiB", strlen(c->settings));
     for (const char *line = c->settings; *line != '\0';) {
         const char *end = strchr(line, '\n'), *equals = strstr(line, " =");
         FUZZ_LAW(end != NULL && equals != NULL && equals < end, "%.100s", line);
