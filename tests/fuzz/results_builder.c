@@ -28,7 +28,17 @@ enum object {
 
 enum place { HERE, NOWHERE, GROUP, DATATYPE, SOFT_LINK, HARD_LINK, OUTER_LINK, N_PLACES };
 enum layout { PLAIN, COMPACT, CHUNKS, DEFLATED, CHECKED, EARLY, ELSEWHERE, VIRTUAL, N_LAYOUTS };
-enum { MAX_OBJECTS = 64, MAX_VALUES = 1 << 16, N_TYPES = 18, VARIABLE = 0, FIXED = 1, DOUBLE = 2, U64 = 3, I32 = 4 };
+enum {
+    MAX_OBJECTS = 64,
+    MAX_VALUES = 1 << 16,
+    MAX_ATTRIBUTE = 1 << 18,
+    N_TYPES = 18,
+    VARIABLE = 0,
+    FIXED = 1,
+    DOUBLE = 2,
+    U64 = 3,
+    I32 = 4
+};
 
 typedef struct recipe {
     enum place  place;
@@ -272,25 +282,25 @@ static hid_t creation_list(const recipe *r, const char *path, bool *is_late)
 
 static void put_data(hid_t at, const char *path, const recipe *r, size_t object)
 {
-    bool    is_late, is_small = true;
-    hsize_t n = 1;
-    hid_t   type = type_of(r), list = creation_list(r, path, &is_late), id = -1, memory_type = -1;
-    hid_t   space = r->rank < 1 ? H5Screate(r->rank < 0 ? H5S_NULL : H5S_SCALAR)
-                                : H5Screate_simple(r->rank, r->dims, NULL);
-    for (int i = 0; i < r->rank; i++) is_small = is_small && r->dims[i] < MAX_VALUES && (n *= r->dims[i]) < MAX_VALUES;
-    if (type >= 0 && space >= 0) {
-        id = object < N_ATTRIBUTES ? H5Acreate2(at, name_of(object), type, space, H5P_DEFAULT, H5P_DEFAULT)
-                                   : H5Dcreate2(at, name_of(object), type, space, H5P_DEFAULT, list, H5P_DEFAULT);
+    bool   is_late, is_attribute = object < N_ATTRIBUTES;
+    double n = 1; /* HDF5 takes any number for a dataset without values; an attribute it keeps in memory */
+    hid_t  type = type_of(r), list = creation_list(r, path, &is_late), id = -1, memory_type = -1;
+    hid_t  space = r->rank < 1 ? H5Screate(r->rank < 0 ? H5S_NULL : H5S_SCALAR)
+                               : H5Screate_simple(r->rank, r->dims, NULL);
+    for (int i = 0; i < r->rank; i++) n *= (double)r->dims[i];
+    if (type >= 0 && space >= 0 && (!is_attribute || n < MAX_ATTRIBUTE)) {
+        id = is_attribute ? H5Acreate2(at, name_of(object), type, space, H5P_DEFAULT, H5P_DEFAULT)
+                          : H5Dcreate2(at, name_of(object), type, space, H5P_DEFAULT, list, H5P_DEFAULT);
     }
-    if (id >= 0 && r->is_written && r->rank >= 0 && n > 0 && is_small && !is_late) {
+    if (id >= 0 && r->is_written && r->rank >= 0 && n > 0 && n < MAX_VALUES && !is_late) {
         void *values = make_values(r, object, (size_t)n, &memory_type);
-        if (values != NULL && object < N_ATTRIBUTES) H5Awrite(id, memory_type, values);
-        if (values != NULL && object >= N_ATTRIBUTES) H5Dwrite(id, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
+        if (values != NULL && is_attribute) H5Awrite(id, memory_type, values);
+        if (values != NULL && !is_attribute) H5Dwrite(id, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
         free(values);
     }
     if (memory_type >= 0) H5Tclose(memory_type);
-    if (id >= 0 && object < N_ATTRIBUTES) H5Aclose(id);
-    if (id >= 0 && object >= N_ATTRIBUTES) H5Dclose(id);
+    if (id >= 0 && is_attribute) H5Aclose(id);
+    if (id >= 0 && !is_attribute) H5Dclose(id);
     if (space >= 0) H5Sclose(space);
     if (type >= 0) H5Tclose(type);
     H5Pclose(list);
