@@ -58,6 +58,10 @@ double fw_abrasion_rate(const fw_abrasion_law *law, double temperature);
 /* Densest ice that is made: the size laws of unbreakable floes pack to this without overlap, equal floes of the largest kind to 0.75. */
 #define FW_MAX_CONCENTRATION 0.8
 
+/* Slowest current that is simulated [m/s]. A slower one is taken as this: wear goes with the cube of speed, and a window of 3 h moves the ice by
+ * 11 m then. A campaign's law may lie below for a tenth of the time at most. */
+#define FW_SLOWEST 1e-3
+
 /* How a window is computed. Zeros stand for what a user gets: the event-driven kernel with the settings that
  * realisation/accuracy.c chooses for fw_model.accuracy. Everything else is there to measure that choice against. */
 typedef enum fw_scheme {

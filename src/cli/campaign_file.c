@@ -119,6 +119,13 @@ static fw_status read_temperature(const fw_reader *r, const fw_node *n, double f
     return FW_OK;
 }
 
+static fw_status check_slow(const fw_node *n, double share, fw_msg *m)
+{
+    if (share <= 0.1) return FW_OK;
+    return fw_yaml_fail(n, m, "current.speed is below %g m/s for %.2g %% of the time, wanted for at most 10 %%: a current that slow is simulated as %g m/s",
+                        FW_SLOWEST, 100 * share, FW_SLOWEST);
+}
+
 static fw_status read_speed(const fw_reader *r, const fw_node *n, fw_distribution *out)
 {
     FW_TRY(fw_read_distribution(r, n, "current.speed", "m/s", out));
@@ -128,7 +135,7 @@ static fw_status read_speed(const fw_reader *r, const fw_node *n, fw_distributio
     }
     if (isfinite(high) && high > 20)
         return fw_yaml_fail(n, r->m, "current.speed reaches up to %g m/s, wanted at most 20 m/s", high);
-    return FW_OK;
+    return check_slow(n, fw_distribution_cdf_left(out, FW_SLOWEST), r->m);
 }
 
 static fw_status read_floe_diameter(const fw_reader *r, const fw_node *n, fw_values *v, fw_model *model)
@@ -170,6 +177,9 @@ static fw_status read_site(const fw_reader *r, const fw_node *ice, const fw_node
         FW_TRY(refuse_beside_joint(r, direction, "current.direction"));
         FW_TRY(refuse_beside_joint(r, concentration, "ice.concentration"));
         FW_TRY(fw_site_table_read(r, joint, "current.joint", &c->site, &c->model, &has_thickness));
+        double slow = 0;
+        for (size_t i = 0; i < c->site.n_cells; i++) slow += c->site.cells[i].speed < FW_SLOWEST ? c->site.cells[i].probability : 0;
+        FW_TRY(check_slow(joint, slow, r->m));
         return has_thickness ? refuse_beside_joint(r, fw_yaml_get(ice, "thickness_mixes"), "ice.thickness_mixes")
                              : FW_OK;
     }

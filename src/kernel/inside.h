@@ -8,6 +8,8 @@
 struct fw_kernel {
     fw_traffic   traffic;
     double       horizon;  /* time between two listings [s] */
+    uint64_t     n_events;
+    double       attended; /* force evaluations when somebody was last attended to */
     fw_cluster **clusters;
     size_t       n_clusters, cluster_capacity;
     fw_cluster **spare; /* emptied ones, with their memory */

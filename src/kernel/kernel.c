@@ -19,6 +19,10 @@
  * this is checked without the shortcut that it bounds. */
 static const double SWIFT = 1.5;
 
+/* Less than a millisecond of work, so that messages of other ranks get on. */
+enum { QUIET_EVENTS = 256 };
+static const double QUIET_EVALUATIONS = 5e3;
+
 fw_status fw_kernel_create(fw_kernel **out, const fw_setup *setup, fw_msg *m)
 {
     FW_CHECK(setup->velocity_scale > 0 && setup->horizon > 0 && setup->tolerance > 0 && setup->margin > 0, m, FW_E_ARG,
@@ -93,6 +97,10 @@ fw_status fw_kernel_step(fw_kernel *k, fw_world *w, fw_wear *wear, double t_end,
             FW_TRY(fw_event_step_ends(k, c, t_end, m));
         else
             break;
+        if (s->attend && (++k->n_events % QUIET_EVENTS == 0 || w->ledger.force_evaluations - k->attended > QUIET_EVALUATIONS)) {
+            k->attended = w->ledger.force_evaluations;
+            FW_TRY(s->attend(s->attend_self));
+        }
         FW_CHECK(w->ledger.force_evaluations <= s->max_evaluations, m, FW_E_LIMIT,
                  "more than %.3g force evaluations at t = %.6g s", s->max_evaluations, t->now);
     }

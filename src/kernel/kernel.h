@@ -42,6 +42,9 @@ typedef struct fw_setup {
     double half_width;      /* of the strip: untouched floes outside are not there; INFINITY: all */
     double downstream;      /* floes past this x are forgotten [m]; INFINITY: none */
     double max_evaluations; /* force evaluations allowed; INFINITY: no limit */
+    /* Called between events, every few milliseconds of work; another status than FW_OK ends the step with it. NULL: nobody waits. */
+    fw_status (*attend)(void *self);
+    void *attend_self;
 } fw_setup;
 
 typedef struct fw_kernel fw_kernel;

@@ -38,9 +38,11 @@ fw_status fw_realise_excerpt(const fw_model *model, const fw_scenario *sc, doubl
                              fw_msg *m)
 {
     fw_window_run r;
-    fw_status     stopped = FW_OK, s = fw_window_open(&r, model, sc, m);
-    *out = (fw_scene){.model = *model, .speed = sc->speed, .duration = duration};
-    if (s == FW_OK) s = fw_window_go(&r, t, t, tick, &stopped, m);
+    fw_scenario   at = *sc;
+    at.speed = fmax(at.speed, FW_SLOWEST);
+    fw_status s = fw_window_open(&r, model, &at, m);
+    *out = (fw_scene){.model = *model, .speed = at.speed, .duration = duration};
+    if (s == FW_OK) s = fw_window_go(&r, t, t, tick, m);
     if (s == FW_OK) s = gather(&r, out, m);
     fw_window_close(&r);
     if (s != FW_OK) fw_scene_free(out);

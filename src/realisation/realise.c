@@ -31,10 +31,10 @@ static fw_status run_once(const fw_model *model, const fw_scenario *sc, const fw
 {
     double    warm_up = fw_accuracy_warm_up(model, sc->speed), t_all = warm_up + model->window, steps = out->steps;
     fw_window_run r;
-    fw_status stopped = FW_OK, s = fw_window_open(&r, model, sc, m);
+    fw_status s = fw_window_open(&r, model, sc, m);
     if (s == FW_OK) {
         r.world->ledger.force_evaluations = out->force_evaluations;
-        s = fw_window_go(&r, warm_up, t_all, tick, &stopped, m);
+        s = fw_window_go(&r, warm_up, t_all, tick, m);
     }
     if (s == FW_OK) {
         double spent = r.world->ledger.force_evaluations;
@@ -43,10 +43,10 @@ static fw_status run_once(const fw_model *model, const fw_scenario *sc, const fw
         r.world->ledger.force_evaluations = spent; /* cost counts from the start */
         r.wear.rule = model->numerics.wear_rule;
         r.wear.is_open = true;
-        s = fw_window_go(&r, t_all, t_all, tick, &stopped, m);
+        s = fw_window_go(&r, t_all, t_all, tick, m);
         fw_wear_finish(&r.wear);
     }
-    bool is_run = s == FW_OK, is_failure = stopped == FW_OK && (s == FW_E_NUMERIC || s == FW_E_LIMIT);
+    bool is_run = s == FW_OK, is_failure = r.stopped == FW_OK && (s == FW_E_NUMERIC || s == FW_E_LIMIT);
     if (is_run || is_failure) describe(out, &r, sc, warm_up);
     if (is_failure && r.world) out->failed_at = r.world->t;
     if (is_run) {
@@ -72,19 +72,22 @@ fw_status fw_realise(const fw_model *model, const fw_scenario *sc, const fw_tick
     FW_CHECK(sc->mix < model->n_mixes, m, FW_E_ARG, "thickness mix %u of %zu", sc->mix, model->n_mixes);
     FW_TRY(fw_record_init(out, model->n_arcs, model->n_laws, m));
 
+    fw_scenario at = *sc;
+    at.speed = fmax(at.speed, FW_SLOWEST);
     double    cpu = fw_cpu_seconds();
-    fw_status s = run_once(model, sc, tick, out, m);
+    fw_status s = run_once(model, &at, tick, out, m);
     out->tries = 1;
     if (s == FW_OK && fw_outcome_may_be_cured(out, model)) {
         fw_model finer = fw_accuracy_finer(model);
         fw_outcome_begin_again(out, m);
-        s = run_once(&finer, sc, tick, out, m);
+        s = run_once(&finer, &at, tick, out, m);
     }
     if (s != FW_OK) {
         fw_record_free(out);
         return s;
     }
     fw_outcome_say(out, m);
+    out->speed = sc->speed;
     out->host_cpu_s = fw_cpu_seconds() - cpu;
     return FW_OK;
 }

@@ -43,10 +43,17 @@ static void note_extent(fw_world *w)
         if (-w->bodies[i].x > l->reach) l->reach = -w->bodies[i].x;
 }
 
-fw_status fw_window_go(fw_window_run *r, double t_end, double t_all, const fw_tick *tick, fw_status *stopped, fw_msg *m)
+static fw_status attend(void *self)
+{
+    fw_window_run *r = self;
+    if (r->tick) r->stopped = r->tick->call(r->tick->self, r->world->t / r->t_all);
+    return r->stopped;
+}
+
+fw_status fw_window_go(fw_window_run *r, double t_end, double t_all, const fw_tick *tick, fw_msg *m)
 {
     fw_world *w = r->world;
-    double    told = w->ledger.force_evaluations;
+    r->tick = tick, r->t_all = t_all, r->stopped = FW_OK;
     for (size_t quiet = 1; w->t < t_end; quiet++) {
         fw_ice_need need = ice_need(r);
         FW_TRY(fw_ice_feed(&r->ice, w, &need, m));
@@ -55,12 +62,7 @@ fw_status fw_window_go(fw_window_run *r, double t_end, double t_all, const fw_ti
         else
             FW_TRY(fw_kernel_step(r->kernel, w, &r->wear, t_end, m));
         note_extent(w);
-        /* Less than a millisecond of work, so that messages of other ranks get on. */
-        if (tick && (quiet % 64 == 0 || w->ledger.force_evaluations - told > 5e3)) {
-            told = w->ledger.force_evaluations;
-            *stopped = tick->call(tick->self, w->t / t_all);
-            if (*stopped != FW_OK) return *stopped;
-        }
+        if (quiet % 64 == 0 || r->plain) FW_TRY(attend(r));
     }
     return FW_OK;
 }
@@ -69,6 +71,7 @@ fw_status fw_window_open(fw_window_run *r, const fw_model *model, const fw_scena
 {
     *r = (fw_window_run){.model = model};
     fw_accuracy_setup(&r->setup, model, sc->speed, sc->speed);
+    r->setup.attend = attend, r->setup.attend_self = r;
     FW_TRY(fw_cost_limit(model, sc, &r->setup.max_evaluations, m));
     FW_TRY(fw_wear_init(&r->wear, model->structure_radius, model->n_arcs, model->n_laws, model->laws, m));
     FW_TRY(lay(r, sc, m));

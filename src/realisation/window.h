@@ -16,12 +16,16 @@ typedef struct fw_window_run {
     fw_kernel      *kernel;
     fw_plain       *plain; /* instead of kernel, for benchmarks */
     fw_wear         wear;
+    const fw_tick  *tick; /* of the present call */
+    double          t_all;
+    fw_status       stopped; /* what the tick said */
 } fw_window_run;
 
-/* Ice round the structure, an open ledger, no wear collected yet. fw_window_close also after an error. */
+/* Ice round the structure, an open ledger, no wear collected yet. fw_window_close also after an error. r stays where it is. */
 fw_status fw_window_open(fw_window_run *r, const fw_model *model, const fw_scenario *sc, fw_msg *m);
-/* To t_end, where all floes stand at the same instant; the tick is told the share of t_all. *stopped: what the tick said. */
-fw_status fw_window_go(fw_window_run *r, double t_end, double t_all, const fw_tick *tick, fw_status *stopped, fw_msg *m);
+/* To t_end, where all floes stand at the same instant; the tick (NULL: none) is told the share of t_all every few milliseconds, and what it says
+ * is in r->stopped. */
+fw_status fw_window_go(fw_window_run *r, double t_end, double t_all, const fw_tick *tick, fw_msg *m);
 void      fw_window_close(fw_window_run *r);
 
 #endif

@@ -150,9 +150,52 @@ static void stops_and_refuses(void **state)
     assert_int_equal(fw_realise(&m, &s, NULL, &r, NULL), FW_E_ARG);
 }
 
+/* A current too slow to move the ice in a window is taken as the slowest one that is simulated, and the record keeps its own. */
+static void slowest_current(void **state)
+{
+    (void)state;
+    fw_record a = realise(0.3, FW_SLOWEST, 10800, 0.01, 5), b = realise(0.3, 1e-300, 10800, 0.01, 5);
+    assert_memory_equal(a.rings, b.rings, fw_record_n_rings(a.n_arcs, a.n_laws) * sizeof *a.rings);
+    assert_true(a.speed == FW_SLOWEST && b.speed == 1e-300 && a.warm_up == b.warm_up && a.floes_made > 0);
+    fw_record_free(&a), fw_record_free(&b);
+}
+
+/* Somebody who waits is attended to while a jam is being worked, not only between its listings. */
+typedef struct clerk {
+    size_t n, n_until;
+    double done;
+} clerk;
+
+static fw_status attend(void *self, double done)
+{
+    clerk *c = self;
+    assert_true(done >= c->done && done <= 1);
+    c->done = done;
+    return ++c->n == c->n_until ? FW_E_STOPPED : FW_OK;
+}
+
+static void attends(void **state)
+{
+    (void)state;
+    fw_model    m;
+    fw_scenario s = {.seed = 1, .id = 1, .concentration = 0.7, .speed = 2};
+    fw_record   r;
+    fw_msg      msg = {""};
+    clerk       c = {0};
+    fw_tick     tick = {.call = attend, .self = &c};
+    fw_model_defaults(&m);
+    m.window = 60;
+    assert_int_equal(fw_realise(&m, &s, &tick, &r, &msg), FW_OK);
+    assert_true((double)c.n > r.force_evaluations / 1e4); /* each some 5000 evaluations */
+    fw_record_free(&r);
+    c = (clerk){.n_until = 40};
+    assert_int_equal(fw_realise(&m, &s, &tick, &r, &msg), FW_E_STOPPED);
+    assert_true(c.n == 40);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(is_a_pure_function),   cmocka_unit_test(papers_example),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(is_a_pure_function), cmocka_unit_test(slowest_current), cmocka_unit_test(attends),   cmocka_unit_test(papers_example),
                                        cmocka_unit_test(three_hours),          cmocka_unit_test(speed_cubed),
                                        cmocka_unit_test(accuracy_of_windows), cmocka_unit_test(stops_and_refuses)};
     return cmocka_run_group_tests(tests, NULL, NULL);
