@@ -12,8 +12,8 @@
  * of what a campaign's hash stands for: runs begun by another generation are refused, not mixed. 2: accuracy levels of
  * November 2026; 3: awake_floes, reach; 4: watch-dogs, second tries; 5: slip watched between
  * floes too; 6: wear of stiff viscous slip, overlaps at their peak, dashpots of long steps; 7: slip of
- * symmetric wedges. */
-enum { FW_RECORD_GENERATION = 7 };
+ * symmetric wedges, a slowest current; 8: mean_diameter_wanted. */
+enum { FW_RECORD_GENERATION = 8 };
 
 /* Scalar columns: C type tag, name (also the HDF5 dataset and journal order), unit (UDUNITS), long name.
  * One list, so that packing, HDF5, documentation and comparison cannot drift apart. */
@@ -24,6 +24,7 @@ enum { FW_RECORD_GENERATION = 7 };
     X(cell, "1", "index of the cell of the joint site table")                                                          \
     X(concentration_achieved, "1", "ice concentration of the field that was packed")                                   \
     X(mean_diameter, "m", "mean floe diameter of the field that was packed")                                           \
+    X(mean_diameter_wanted, "m", "mean floe diameter of the law of sizes")                                             \
     X(window, "s", "exposure that the wear was collected over")                                                        \
     X(warm_up, "s", "time simulated before the window")                                                                \
     X(failed_at, "s", "simulated time that a failed realisation had come to, warm-up included; 0: it did not fail")        \

@@ -55,7 +55,7 @@ typedef struct fw_abrasion_law {
 /* Factor that turns a law's wear load [MPa^m km] into depth [mm] at temperature T [degC]. */
 double fw_abrasion_rate(const fw_abrasion_law *law, double temperature);
 
-/* Densest ice that is made: the size laws of unbreakable floes pack to this without overlap, equal floes of the largest kind to 0.75. */
+/* Densest ice that is made: the size laws of unbreakable floes pack to this without overlap, equal floes of the largest kind (32 m) nearly. */
 #define FW_MAX_CONCENTRATION 0.8
 
 /* Slowest current that is simulated [m/s]. A slower one is taken as this: wear goes with the cube of speed, and a window of 3 h moves the ice by

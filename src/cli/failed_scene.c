@@ -67,16 +67,19 @@ static fw_status put(const fw_scene *s, const fw_campaign *c, const fw_record *r
 }
 
 /* Does the file fail? Read as a user's program reads it: it refuses floes that overlap at the start. */
-static bool fails(const char *path)
+static fw_status fails(const char *path, bool *it_does, fw_msg *m)
 {
     fw_scene        s;
     fw_scene_result out = {0};
-    fw_msg          m = {""};
-    if (fw_config_scene(&s, path, 0, NULL, &m) != FW_OK) return false;
-    fw_status status = fw_scene_run(&s, NULL, NULL, &out, &m);
-    fw_scene_result_free(&out);
-    fw_scene_free(&s);
-    return status == FW_E_NUMERIC;
+    fw_status       status = fw_config_scene(&s, path, 0, NULL, m);
+    *it_does = false;
+    if (status == FW_OK) {
+        status = fw_scene_run(&s, NULL, NULL, &out, m);
+        *it_does = status == FW_E_NUMERIC;
+        fw_scene_result_free(&out);
+        fw_scene_free(&s);
+    }
+    return status == FW_E_NOMEM ? status : FW_OK;
 }
 
 fw_status fw_failed_scene_write(const fw_campaign *c, const fw_record *r, const char *path, bool *is_written, fw_msg *m)
@@ -94,7 +97,7 @@ fw_status fw_failed_scene_write(const fw_campaign *c, const fw_record *r, const 
         FW_TRY(status);
         status = put(&s, c, r, from, path, m);
         fw_scene_free(&s);
-        *is_written = status == FW_OK && fails(path);
+        if (status == FW_OK) status = fails(path, is_written, m);
         if (*is_written) return FW_OK;
         unlink(path);
         FW_TRY(status);

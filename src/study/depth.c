@@ -83,6 +83,8 @@ fw_status fw_depth_add(fw_depth *d, const fw_record *r, fw_msg *m)
     for (size_t k = 0; k < r->n_arcs; k++) all += ring[k] / (double)r->n_arcs;
     d->all_load += all, d->overlap_wear += all * r->overlap_wear_share;
     d->overlap_time += r->overlap_time_share;
+    d->ice_ratio += r->concentration > 0 ? r->concentration_achieved / r->concentration : 1;
+    d->size_ratio += r->mean_diameter_wanted > 0 ? r->mean_diameter / r->mean_diameter_wanted : 1;
     d->overlap_most = fmax(d->overlap_most, r->max_overlap_share);
     d->n_second += r->tries > 1;
     d->n++;

@@ -31,6 +31,7 @@ typedef struct fw_depth {
     double        truncation;           /* sum of energy_truncation over those that did not fail; theirs too: */
     double        all_load, overlap_wear; /* ring means of load; of that in contacts beyond a tenth of the smaller radius [MPa^m km] */
     double        overlap_time, overlap_most; /* sum of shares of time with such a contact; largest overlap over the smaller radius */
+    double        ice_ratio, size_ratio; /* sums of what was packed over what was wanted: concentration, mean diameter */
     size_t        n_second; /* that finer steps brought to an end */
 } fw_depth;
 

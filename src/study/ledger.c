@@ -127,6 +127,17 @@ static void overlaps(fw_ledger_row *row, const fw_window *w)
         100 * d->overlap_time / (double)d->n, d->overlap_most);
 }
 
+static void packed_ice(fw_ledger_row *row, const fw_window *w)
+{
+    const fw_depth *d = w->depth;
+    double          ice = d->ice_ratio / (double)d->n - 1, size = d->size_ratio / (double)d->n - 1;
+    SAY(row->row, "ice as packed");
+    row->amount = fabs(ice);
+    SAY(row->shrinks_with, "more ice per window: packed over wanted, mean over windows: concentration %+.2g %%, mean diameter %+.2g %%", 100 * ice,
+        100 * size);
+    SAY(row->cost_to_halve, "not known: the tiles of ice have one size");
+}
+
 static void unmeasured(fw_ledger_row *row, const char *name, const char *shrinks_with)
 {
     SAY(row->row, "%s", name);
@@ -153,7 +164,7 @@ static void between_years(fw_ledger_row *row, const fw_campaign *c)
 fw_status fw_ledger_rows(fw_answer *a, const fw_campaign *c, const fw_window *w, const fw_percentile_row *governing,
                          fw_msg *m)
 {
-    enum { MOST = 10 + FW_MEASURED_ROWS };
+    enum { MOST = 11 + FW_MEASURED_ROWS };
     FW_TRY(fw_alloc(&a->ledger, MOST, sizeof *a->ledger, "rows of the ledger", m));
     for (size_t i = 0; i < MOST; i++) a->ledger[i].cost_to_halve_cpu_s = NAN;
     fw_ledger_row *row = a->ledger;
@@ -162,6 +173,7 @@ fw_status fw_ledger_rows(fw_answer *a, const fw_campaign *c, const fw_window *w,
     row += domain(row, &a->measured, w);
     failed_runs(row++, w, governing);
     overlaps(row++, w);
+    packed_ice(row++, w);
     unmeasured(row++, "ice field against scenario", "more realisations");
     unmeasured(row++, "law and its scatter", "laboratory and field data (a published fit has R2 66 %)");
     unmeasured(row++, "switched-off effects", "switching them on (effects:)");

@@ -63,7 +63,7 @@ static double value_of(const column *c, const hard_row *r)
 void hard_sheet_head(FILE *to)
 {
     fprintf(to, "# Hard cases\n\nOutput of `build/tests/validation/validate_hard --all`: scenes and windows that are the hardest on a discrete-element engine, each with "
-                "the laws it must obey, at accuracy 1 %%. What the laws say, and those that are not held, stand below.\n\n| scene | status");
+                "the laws it must obey, at accuracy 1 %%. What the laws say, and any that is not held, stands below. Tries: 2 where finer steps were taken from the start after a first failure.\n\n| scene | status");
     for (size_t i = 0; i < N_COLUMNS; i++) fprintf(to, " | %s", COLUMNS[i].heading);
     fprintf(to, " | not held |\n|---|---");
     for (size_t i = 0; i < N_COLUMNS; i++) fprintf(to, "|---");
