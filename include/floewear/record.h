@@ -12,8 +12,9 @@
  * of what a campaign's hash stands for: runs begun by another generation are refused, not mixed. 2: accuracy levels of
  * November 2026; 3: awake_floes, reach; 4: watch-dogs, second tries; 5: slip watched between
  * floes too; 6: wear of stiff viscous slip, overlaps at their peak, dashpots of long steps; 7: slip of
- * symmetric wedges, a slowest current; 8: mean_diameter_wanted. */
-enum { FW_RECORD_GENERATION = 8 };
+ * symmetric wedges, a slowest current; 8: mean_diameter_wanted; 9: what a
+ * cluster has dissipated is shared out where it falls apart. */
+enum { FW_RECORD_GENERATION = 9 };
 
 /* Scalar columns: C type tag, name (also the HDF5 dataset and journal order), unit (UDUNITS), long name.
  * One list, so that packing, HDF5, documentation and comparison cannot drift apart. */
@@ -27,7 +28,7 @@ enum { FW_RECORD_GENERATION = 8 };
     X(mean_diameter_wanted, "m", "mean floe diameter of the law of sizes")                                             \
     X(window, "s", "exposure that the wear was collected over")                                                        \
     X(warm_up, "s", "time simulated before the window")                                                                \
-    X(failed_at, "s", "simulated time that a failed realisation had come to, warm-up included; 0: it did not fail")        \
+    X(failed_at, "s", "simulated time that a failed realisation had come to, warm-up included; else 0")        \
     X(hits, "1", "first touches of a floe and the structure after 1 s apart, within the window")                       \
     X(contact_time, "s", "sum over floes of the time with a force on the structure")                                   \
     X(normal_impulse, "N s", "sum over floes of the normal impulse on the structure")                                  \

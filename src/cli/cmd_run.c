@@ -232,7 +232,8 @@ static fw_status run_campaign(run_session *s, const run_arguments *a, fw_msg *m)
 
     if (!a->is_quiet || result.n_failed) run_list_failures(s, result.n_prefix);
     if (status != FW_OK && status != FW_E_STOPPED && status != FW_E_FAILURES) return status;
-    if (result.n_prefix > 0) {
+    /* Stopped while it ran failed ones again: fewer stand without a gap than before, and results of all are there. */
+    if (result.n_prefix > 0 && !(status == FW_E_STOPPED && a->runs_failed_again)) {
         written = run_answer(s, result.n_prefix, a, &later);
         if (written == FW_OK && !a->is_quiet) {
             fprintf(stderr, "%s: the first %" PRIu64 " realisations\n", s->files.results_path, result.n_prefix);
@@ -248,7 +249,7 @@ static fw_status run_campaign(run_session *s, const run_arguments *a, fw_msg *m)
         fw_fail(m, status, "more than %" PRIu64 " (precision.max_failed) of the first %" PRIu64 " realisations failed",
                 c->precision.max_failed, result.n_prefix);
     }
-    if (written != FW_OK && written != FW_E_FAILURES) { /* that there is no answer then is no news */
+    if (written != FW_OK && !(written == FW_E_FAILURES && status != FW_OK)) { /* that there is no answer after that is no news */
         *m = later;
         return written;
     }
@@ -260,17 +261,15 @@ static fw_status run_campaign(run_session *s, const run_arguments *a, fw_msg *m)
 typedef struct run_printer {
     const fw_campaign *campaign;
     bool               is_json;
-    fw_status          status;    /* of the realisation */
-    double             failed_at; /* [s] */
-    char               cause[200];
+    fw_record          record; /* without its rings */
 } run_printer;
 
 static fw_status run_print_record(void *self, const fw_record *r, fw_msg *m)
 {
     run_printer *p = self;
 
-    p->status = r->status, p->failed_at = r->failed_at;
-    memcpy(p->cause, r->cause, sizeof p->cause);
+    p->record = *r;
+    p->record.rings = NULL;
     if (p->is_json) {
         fw_record_print_json(stdout, p->campaign, r);
     } else {
@@ -279,23 +278,25 @@ static fw_status run_print_record(void *self, const fw_record *r, fw_msg *m)
     return fw_output_finish(m);
 }
 
-/* A failure that happens without its history is worth more as a scene: seconds instead of hours. */
-static fw_status run_show_alone(const run_printer *p, const run_arguments *a, fw_msg *m)
+/* A failure that happens without its history is worth more as a scene: seconds instead of hours. Whatever comes in between, the failure is told. */
+static void run_show_alone(const run_printer *p, const run_arguments *a)
 {
-    fw_record r = {.id = (uint64_t)a->only_id, .failed_at = p->failed_at};
-    char      path[4200];
-    bool      is_written = false;
+    char        path[4200];
+    const char *stem = a->out ? a->out : p->campaign->name;
+    size_t      n = strlen(stem);
+    bool        is_written = false;
+    fw_msg      m = {.text = ""};
 
-    if (p->status != FW_E_NUMERIC) return FW_OK;
-    memcpy(r.cause, p->cause, sizeof r.cause);
-    snprintf(path, sizeof path, "%.4000s.failed-%" PRId64 ".yaml", a->out ? a->out : p->campaign->name, a->only_id);
-    FW_TRY(fw_failed_scene_write(p->campaign, &r, path, &is_written, m));
-    if (is_written) {
+    if (p->record.status != FW_E_NUMERIC) return;
+    if (n > 3 && strcmp(stem + n - 3, ".h5") == 0) n -= 3;
+    snprintf(path, sizeof path, "%.*s.failed-%" PRId64 ".yaml", (int)(n < 4000 ? n : 4000), stem, a->only_id);
+    if (fw_failed_scene_write(p->campaign, &p->record, path, &is_written, &m) != FW_OK) {
+        fprintf(stderr, "no scene file: %s\n", m.text);
+    } else if (is_written) {
         fprintf(stderr, "it fails alone too: floewear scene %s\n", path);
     } else {
         fprintf(stderr, "no scene file: it does not fail without what went before\n");
     }
-    return FW_OK;
 }
 
 static fw_status run_only(const fw_campaign *c, const run_arguments *a, fw_msg *m)
@@ -307,9 +308,9 @@ static fw_status run_only(const fw_campaign *c, const run_arguments *a, fw_msg *
                          .only_id  = a->only_id};
 
     FW_TRY(fw_campaign_run(&run, &result, m));
-    if (printer.status != FW_OK) {
-        FW_TRY(run_show_alone(&printer, a, m));
-        return fw_fail(m, printer.status, "realisation %" PRId64 " failed: %s", a->only_id, printer.cause);
+    if (printer.record.status != FW_OK) {
+        run_show_alone(&printer, a);
+        return fw_fail(m, printer.record.status, "realisation %" PRId64 " failed: %s", a->only_id, printer.record.cause);
     }
     return FW_OK;
 }

@@ -2,12 +2,15 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "campaign/signals.h"
 #include "cli/config.h"
 #include "effects/effects.h"
+#include "realisation/accuracy.h"
 
 /* How long before the failure the scene begins [m of the current's way]: the first at which no two floes overlap (a scene starts without a
  * history of contacts) and which fails. */
@@ -62,7 +65,11 @@ static fw_status put(const fw_scene *s, const fw_campaign *c, const fw_record *r
     }
     bool is_good = !ferror(f);
     is_good = fclose(f) == 0 && is_good;
-    FW_CHECK(is_good, m, FW_E_IO, "%s: %s", path, strerror(errno));
+    if (!is_good) {
+        fw_fail(m, FW_E_IO, "%s: %s", path, strerror(errno));
+        unlink(path);
+        return FW_E_IO;
+    }
     return FW_OK;
 }
 
@@ -74,6 +81,7 @@ static fw_status fails(const char *path, bool *it_does, fw_msg *m)
     fw_status       status = fw_config_scene(&s, path, 0, NULL, m);
     *it_does = false;
     if (status == FW_OK) {
+        s.model.max_evaluations = 1e9; /* it may go astray, too */
         status = fw_scene_run(&s, NULL, NULL, &out, m);
         *it_does = status == FW_E_NUMERIC;
         fw_scene_result_free(&out);
@@ -82,22 +90,34 @@ static fw_status fails(const char *path, bool *it_does, fw_msg *m)
     return status == FW_E_NOMEM ? status : FW_OK;
 }
 
+static fw_status until_signal(void *self, double done)
+{
+    (void)self, (void)done;
+    return fw_signals_received() ? FW_E_STOPPED : FW_OK;
+}
+
 fw_status fw_failed_scene_write(const fw_campaign *c, const fw_record *r, const char *path, bool *is_written, fw_msg *m)
 {
     fw_scenario sc;
+    fw_tick     tick = {.call = until_signal};
+    /* as the try that failed last */
+    fw_model    model = r->tries > 1 ? fw_accuracy_finer(&c->model) : c->model;
+    double      from = INFINITY;
     *is_written = false;
+    if (r->failed_at >= r->warm_up + r->window) return FW_OK; /* judged at its end: there is no moment to show */
     fw_campaign_scenario(c, r->id, &sc);
-    for (size_t i = 0; i < sizeof BEFORE / sizeof BEFORE[0]; i++) {
+    double speed = fmax(sc.speed, FW_SLOWEST);
+    for (size_t i = 0; i < sizeof BEFORE / sizeof BEFORE[0] && from > 0; i++) {
         fw_scene  s;
-        double    from = r->failed_at - BEFORE[i] / sc.speed;
         fw_status status;
-        if (!(from > 0)) break;
-        status = fw_realise_excerpt(&c->model, &sc, from, (BEFORE[i] + AFTER) / sc.speed, NULL, &s, m);
-        if (status == FW_E_NUMERIC || status == FW_E_LIMIT) continue; /* as it happens another step of the time is cut now */
+        from = fmax(0, r->failed_at - BEFORE[i] / speed);
+        status = fw_realise_excerpt(&model, &sc, from, (BEFORE[i] + AFTER) / speed, &tick, &s, m);
+        if (status == FW_E_NUMERIC || status == FW_E_LIMIT) continue; /* cut at another instant it fails a little sooner */
         FW_TRY(status);
         status = put(&s, c, r, from, path, m);
         fw_scene_free(&s);
-        if (status == FW_OK) status = fails(path, is_written, m);
+        FW_TRY(status);
+        status = fails(path, is_written, m);
         if (*is_written) return FW_OK;
         unlink(path);
         FW_TRY(status);

@@ -169,8 +169,10 @@ static double attempt(fw_cluster *c, const fw_books *books, double h)
     const fw_setup  *set = books->setup;
     const fw_method *me = set->method;
     size_t           last = me->n_stages - 1;
-    for (size_t s = 1; s <= last; s++) fw_stage_solve(c, books, s, h);
+    bool is_solved = true;
+    for (size_t s = 1; s <= last; s++) is_solved &= fw_stage_solve(c, books, s, h);
     double hg = h * me->gamma, worst = 0, inv = 1 / h;
+    bool   is_finite = true;
     for (size_t i = 0; i < c->n_members; i++) {
         fw_member *m = &c->members[i];
         double     e[4] = {0, 0, 0, 0};
@@ -179,7 +181,8 @@ static double attempt(fw_cluster *c, const fw_books *books, double h)
         for (size_t s = 0; s <= last; s++)
             for (int q = 0; q < 4; q++) e[q] += me->e[s] * m->k[s][FW_VX + q];
         double err = h * fw_larger(fw_length(e[0], e[1]), m->radius * fabs(e[2]));
-        worst = err <= worst ? worst : err; /* keeps NaN */
+        worst = fw_larger(worst, err);
+        is_finite &= err < INFINITY;
         m->fastest = fw_member_fastest(m, set->speed, inv);
     }
     worst /= set->tolerance * set->velocity_scale;
@@ -189,7 +192,8 @@ static double attempt(fw_cluster *c, const fw_books *books, double h)
         worst = fw_larger(worst, wear_error(c, p, set, h) / set->wear_tolerance);
         if (has_hole(p, last)) worst = fw_larger(worst, 6); /* halves the step */
     }
-    return worst;
+    if (!is_solved) worst = fw_larger(worst, 2); /* shorter steps are solved sooner */
+    return is_finite ? worst : NAN;
 }
 
 double fw_cluster_lets_go(const fw_cluster *c, const fw_pair *p, const fw_method *me)
@@ -256,8 +260,11 @@ static double careful(const fw_cluster *c, double h)
 
 fw_status fw_cluster_not_finite(const fw_cluster *c, const fw_books *books, fw_msg *msg)
 {
-    return fw_fail(msg, FW_E_NUMERIC, "the state of floe %llu is not finite at t = %.6g s",
-                   (unsigned long long)books->world->bodies[c->members[0].index].name, c->t0);
+    size_t i = 0;
+    while (i + 1 < c->n_members && isfinite(c->members[i].y1[FW_VX] + c->members[i].y1[FW_VY] + c->members[i].y1[FW_SPIN])) i++;
+    const fw_body *b = &books->world->bodies[c->members[i].index];
+    return fw_fail(msg, FW_E_NUMERIC, "the state of floe %llu (D %.3g m, h %.2g m) is not finite after t = %.6g s", (unsigned long long)b->name,
+                   2 * b->radius, b->thickness, c->t0);
 }
 
 /* err^(-1 / order), without a power */

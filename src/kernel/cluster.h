@@ -80,7 +80,7 @@ typedef struct fw_cluster {
     fw_member *members;
     fw_pair   *pairs;
     fw_lone    lone; /* the tried step of a lone floe on the structure */
-    double        dissipated; /* since the first contact [J] */
+    double        dissipated; /* since the first contact, shared out by number where the cluster falls apart [J] */
     fw_step_books tried;      /* of the tried step, but for a lone floe's; */
     bool          is_weighed; /* and whether it has been: a step that was cut is weighed when it is committed */
 } fw_cluster;
@@ -99,7 +99,7 @@ static inline double fw_smaller(double a, double b) { return b < a ? b : a; }
 
 /* stage.c */
 void fw_stage_start(fw_cluster *c, const fw_books *b);                     /* accelerations at t0, from forces */
-void fw_stage_solve(fw_cluster *c, const fw_books *b, size_t s, double h); /* stage s of a step h */
+bool fw_stage_solve(fw_cluster *c, const fw_books *b, size_t s, double h); /* stage s of a step h; false: sweeps ended before their time */
 
 /* cluster.c */
 fw_status fw_cluster_join(fw_cluster *c, const fw_books *b, int32_t body, int32_t *member,

@@ -60,6 +60,7 @@ fw_status fw_cluster_commit(fw_cluster *c, const fw_books *books, int32_t *opene
     bool   is_lone = fw_lone_is(c, books);
     if (is_lone) {
         fw_lone_keep(c, books);
+        c->pairs[0].jumped = 0; /* its closed forms end where slip turns */
     } else {
         fw_books_keep(c, books);
         fw_books_wear(c, books);

@@ -154,6 +154,15 @@ static double too_late(const fw_kernel *k, const fw_cluster *a, const fw_cluster
     return 30 * fw_larger(small, s->tolerance * s->velocity_scale * longest) + 1e-9;
 }
 
+/* Who overlaps at the very start has been put there so. */
+static fw_status watch_touch(fw_kernel *k, const fw_candidate *e, const fw_cluster *a, const fw_cluster *b, const fw_path *other, double t, double gap,
+                             double small, fw_msg *m)
+{
+    fw_world *w = k->traffic.world;
+    if (!(-gap > too_late(k, a, b, t, small)) || !(t > 0)) return FW_OK;
+    return fw_watch_late(&k->traffic.setup, &w->ledger, &w->bodies[e->i], e->j == FW_WALL ? 0 : other->radius, -gap, t, m);
+}
+
 /* Where the clusters of a candidate's floes stand at the touch. A step that was cut is another step than the one its cubic came from, so
  * the touch moves a little: Newton, each time with both steps tried again. */
 static fw_status locate(fw_kernel *k, int32_t c, fw_cluster *a, fw_cluster *b, double *t, double *closing,
@@ -170,17 +179,14 @@ static fw_status locate(fw_kernel *k, int32_t c, fw_cluster *a, fw_cluster *b, d
         double small = acceptable_gap(k, e, *closing), earliest = k->traffic.now;
         if (gap > small && !(*closing > 0)) return FW_OK;
         if (fabs(gap) <= small || (gap <= 0 && (*t <= earliest || !(*closing > 0)))) {
-            /* who overlaps at the very start has been put there so */
-            if (-gap > too_late(k, a, b, *t, small) && *t > 0)
-                FW_TRY(fw_watch_late(&k->traffic.setup, &k->traffic.world->ledger, &k->traffic.world->bodies[e->i], e->j == FW_WALL ? 0 : q.radius, -gap, *t, m));
             *is_touch = true;
-            return FW_OK;
+            return watch_touch(k, e, a, b, &q, *t, gap, small, m);
         }
         double next = fw_larger(earliest, *t + gap / *closing);
         if (next > latest) return FW_OK; /* the step as cut now does not lead there: it ends here, and all look again */
         if (next == last && gap <= 0) {
             *is_touch = true;
-            return FW_OK;
+            return watch_touch(k, e, a, b, &q, *t, gap, small, m);
         }
         last = *t, *t = next;
     }

@@ -13,7 +13,8 @@ fw_status fw_flock_new(fw_kernel *k, double t, fw_cluster **out, fw_msg *m)
     else
         FW_TRY(fw_alloc(&c, 1, sizeof *c, "cluster", m));
     c->n_members = c->n_pairs = 0;
-    c->t0 = c->t1 = t, c->h = INFINITY, c->omega = c->dissipated = 0, c->is_kept = false;
+    c->t0 = c->t1 = t, c->h = INFINITY, c->omega = c->dissipated = 0, c->is_kept = c->is_weighed = false;
+    c->lone.t1 = NAN; /* nobody's step */
     k->clusters[k->n_clusters++] = c;
     *out = c;
     return FW_OK;
@@ -67,7 +68,7 @@ fw_status fw_flock_fall_apart(fw_kernel *k, fw_cluster *c, size_t *first, fw_msg
         }
         fw_cluster *part;
         FW_TRY(fw_flock_new(k, c->t0, &part, m));
-        part->h = c->h, part->is_kept = c->is_kept, part->dissipated = c->dissipated;
+        part->h = c->h, part->is_kept = c->is_kept;
         for (size_t i = 0; i < c->n_members; i++) {
             if (find_root(k->root, (int32_t)i) != (int32_t)r) continue;
             FW_TRY(fw_grow(&part->members, &part->member_capacity, part->n_members + 1, sizeof *part->members,
@@ -75,6 +76,7 @@ fw_status fw_flock_fall_apart(fw_kernel *k, fw_cluster *c, size_t *first, fw_msg
             part->members[part->n_members] = c->members[i];
             k->traffic.seats[c->members[i].index].member = (int32_t)part->n_members++;
         }
+        part->dissipated = c->dissipated * (double)part->n_members / (double)c->n_members;
         for (size_t q = 0; q < c->n_pairs; q++) {
             fw_pair p = c->pairs[q];
             if (find_root(k->root, p.a) != (int32_t)r) continue;

@@ -65,6 +65,8 @@ void fw_kernel_needs_ice(const fw_kernel *k, const fw_world *w, double *from, do
     *from -= margin, *low -= margin, *high += margin;
 }
 
+double fw_kernel_now(const fw_kernel *k, const fw_world *w) { return fw_larger(w->t, k->traffic.now); }
+
 static fw_cluster *first_to_end(const fw_kernel *k)
 {
     fw_cluster *first = NULL;

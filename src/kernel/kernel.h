@@ -57,6 +57,8 @@ void      fw_kernel_destroy(fw_kernel *k);
  * fw_kernel_needs_ice. Errors: FW_E_NUMERIC (non-finite state, floe inside the structure, step
  * limit) naming floe and time; FW_E_LIMIT; FW_E_NOMEM. */
 fw_status fw_kernel_step(fw_kernel *k, fw_world *w, fw_wear *wear, double t_end, fw_msg *m);
+/* The instant that the kernel has come to, also within a step that failed. */
+double    fw_kernel_now(const fw_kernel *k, const fw_world *w);
 /* Untouched ice that the next step wants in the world: from x on, for y from low to high (kernel frame [m]). */
 void      fw_kernel_needs_ice(const fw_kernel *k, const fw_world *w, double *from, double *low, double *high);
 

@@ -114,7 +114,7 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
     double d_start = fw_larger(0, L->from.depth), d_end = fw_larger(0, e->depth);
     double stored = 0.5 * p->law.k * (d_end * d_end - d_start * d_start);
     l->into_springs += fw_larger(0, stored), l->contact_steps++;
-    c->dissipated += dashpot + friction;
+    c->dissipated += dashpot + friction + (L->presses ? 0 : -stored);
     if (L->presses) {
         l->normal_impulse += mass * (L->span * integral(L->by.push, h / L->span) - (e->rate - L->from.rate));
         l->contact_time += h;

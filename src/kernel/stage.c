@@ -213,7 +213,7 @@ static double renew_drag(fw_cluster *c, const fw_setup *set, double hg, double e
     return largest;
 }
 
-void fw_stage_solve(fw_cluster *c, const fw_books *books, size_t s, double h)
+bool fw_stage_solve(fw_cluster *c, const fw_books *books, size_t s, double h)
 {
     const fw_setup *set = books->setup;
     double          hg = h * set->method->gamma, inv = 1 / hg;
@@ -224,11 +224,12 @@ void fw_stage_solve(fw_cluster *c, const fw_books *books, size_t s, double h)
     predict(c, set, s, h);
     linearise(c, s, hg);
     books->world->ledger.force_evaluations += (double)c->n_pairs;
-    for (int n = 0; n < MAX_SWEEPS; n++) {
+    bool is_solved = false;
+    for (int n = 0; n < MAX_SWEEPS && !is_solved; n++) {
         double change = sweep(c);
         if (!is_lone && !(change < enough) && n % 4 != 3) continue;
         double drag = set->has_drag ? renew_drag(c, set, hg, enough) : 0;
-        if (!(drag > 0) && (change < enough || is_lone)) break;
+        is_solved = !(drag > 0) && (change < enough || is_lone);
     }
     if (!is_lone) settle_structure(c);
     for (size_t i = 0; i < c->n_members; i++) {
@@ -245,4 +246,5 @@ void fw_stage_solve(fw_cluster *c, const fw_books *books, size_t s, double h)
         p->depth[s] = p->depth_star + hg * (p->rate[s] - p->rate_star);
         p->dir[s][0] = p->nx, p->dir[s][1] = p->ny;
     }
+    return is_solved;
 }

@@ -27,7 +27,7 @@ static bool is_energy_out(const fw_cluster *c, const fw_setup *set)
 
 int fw_watch_jump(const fw_contact_constants *law, double share, double slip0, double normal0, double slip1, double normal1)
 {
-    if (!(slip0 * slip1 < 0) || !(normal0 > 0) || !(normal1 > 0)) return 0;
+    if (!(slip0 * slip1 < 0) || !(normal0 > 0) || !(normal1 > 0) || !(law->mu > 0)) return 0;
     double force0 = law->ct * fabs(slip0), force1 = law->ct * fabs(slip1);
     if (force0 < share * law->mu * normal0 || force1 < share * law->mu * normal1) return 0;
     return slip1 > 0 ? 1 : -1;

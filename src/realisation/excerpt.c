@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "realisation/accuracy.h"
 #include "realisation/window.h"
 
 static fw_status add_floe(fw_scene *to, size_t *capacity, fw_floe f, fw_msg *m)
@@ -37,12 +38,18 @@ static fw_status gather(const fw_window_run *r, fw_scene *to, fw_msg *m)
 fw_status fw_realise_excerpt(const fw_model *model, const fw_scenario *sc, double t, double duration, const fw_tick *tick, fw_scene *out,
                              fw_msg *m)
 {
+    FW_CHECK(model->numerics.scheme == FW_SCHEME_EVENTS && sc->mix < model->n_mixes && sc->speed > 0, m, FW_E_ARG,
+             "no excerpt of thickness mix %u of %zu at %g m/s", sc->mix, model->n_mixes, sc->speed);
     fw_window_run r;
     fw_scenario   at = *sc;
     at.speed = fmax(at.speed, FW_SLOWEST);
     fw_status s = fw_window_open(&r, model, &at, m);
     *out = (fw_scene){.model = *model, .speed = at.speed, .duration = duration};
+    /* By the way of the run itself, which has all floes stand at the window's start: its steps are cut there. */
+    double warm_up = fw_accuracy_warm_up(model, at.speed);
+    if (s == FW_OK && warm_up < t) s = fw_window_go(&r, warm_up, t, tick, m);
     if (s == FW_OK) s = fw_window_go(&r, t, t, tick, m);
+    if (s == FW_OK) s = fw_window_feed(&r, at.speed * duration, m);
     if (s == FW_OK) s = gather(&r, out, m);
     fw_window_close(&r);
     if (s != FW_OK) fw_scene_free(out);

@@ -37,11 +37,6 @@ void fw_outcome_fill(fw_record *r, const fw_world *w, const fw_wear *wear, doubl
     }
 }
 
-bool fw_outcome_may_be_cured(const fw_record *r, const fw_model *m)
-{
-    return r->status == FW_E_NUMERIC && m->numerics.scheme == FW_SCHEME_EVENTS;
-}
-
 void fw_outcome_begin_again(fw_record *r, fw_msg *m)
 {
     double evaluations = r->force_evaluations, steps = r->steps;
@@ -57,6 +52,14 @@ void fw_outcome_say(fw_record *r, fw_msg *m)
 {
     if (r->status == FW_OK) return;
     memset(r->rings, 0, fw_record_n_rings(r->n_arcs, r->n_laws) * sizeof *r->rings);
-    snprintf(r->cause, sizeof r->cause, "%s%.*s", r->tries > 1 ? "finer steps too: " : "", (int)sizeof r->cause - 18, m->text);
+    if (r->tries < 2) {
+        snprintf(r->cause, sizeof r->cause, "%.*s", (int)sizeof r->cause - 1, m->text);
+    } else if (r->status == FW_E_NUMERIC) {
+        snprintf(r->cause, sizeof r->cause, "finer steps too: %.*s", (int)sizeof r->cause - 18, m->text);
+    } else { /* "first try: ..." stands there */
+        size_t n = strnlen(r->cause, sizeof r->cause - 70);
+        snprintf(r->cause + n, sizeof r->cause - n, "; finer steps: %.50s", m->text);
+        r->status = FW_E_NUMERIC;
+    }
     m->text[0] = 0;
 }

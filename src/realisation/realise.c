@@ -32,7 +32,7 @@ static void describe(fw_record *rec, const fw_window_run *r, const fw_scenario *
 
 /* One try. Its evaluations count on from those that out has seen already. A failure of the physics or of its limits is a record; no memory,
  * a full disk or a stop are not. */
-static fw_status run_once(const fw_model *model, const fw_scenario *sc, const fw_tick *tick, fw_record *out, fw_msg *m)
+static fw_status run_once(const fw_model *model, const fw_scenario *sc, const fw_tick *tick, fw_record *out, bool *may_be_cured, fw_msg *m)
 {
     double    warm_up = fw_accuracy_warm_up(model, sc->speed), t_all = warm_up + model->window, steps = out->steps;
     fw_window_run r;
@@ -40,6 +40,12 @@ static fw_status run_once(const fw_model *model, const fw_scenario *sc, const fw
     if (s == FW_OK) {
         r.world->ledger.force_evaluations = out->force_evaluations;
         s = fw_window_go(&r, warm_up, t_all, tick, m);
+    }
+    bool is_judged = model->numerics.scheme == FW_SCHEME_EVENTS && !model->numerics.order;
+    if (s == FW_OK && warm_up > 0) { /* its books; its balance may be that of a few touches */
+        fw_outcome_fill(out, r.world, &r.wear, warm_up);
+        s = fw_verdict(out, r.world, INFINITY, m);
+        if (s != FW_OK) fw_msg_prefix(m, "in the warm-up: ");
     }
     if (s == FW_OK) {
         double spent = r.world->ledger.force_evaluations;
@@ -53,13 +59,12 @@ static fw_status run_once(const fw_model *model, const fw_scenario *sc, const fw
     }
     bool is_run = s == FW_OK, is_failure = r.stopped == FW_OK && (s == FW_E_NUMERIC || s == FW_E_LIMIT);
     if (is_run || is_failure) describe(out, &r, sc, warm_up);
-    if (is_failure && r.world) out->failed_at = r.world->t;
     if (is_run) {
         fw_outcome_fill(out, r.world, &r.wear, model->window);
-        bool is_judged = model->numerics.scheme == FW_SCHEME_EVENTS && !model->numerics.order;
         s = fw_verdict(out, r.world, is_judged ? r.setup.energy_tolerance : INFINITY, m);
-        if (s != FW_OK) out->failed_at = r.world->t;
     }
+    if (s != FW_OK) out->failed_at = fw_window_now(&r);
+    *may_be_cured = s == FW_E_NUMERIC && !r.is_ice && model->numerics.scheme == FW_SCHEME_EVENTS; /* a limit is passed all the sooner */
     if (r.world) out->force_evaluations = r.world->ledger.force_evaluations, out->steps = steps + r.world->ledger.steps;
     fw_window_close(&r);
     if (!is_run && !is_failure) return s;
@@ -80,12 +85,13 @@ fw_status fw_realise(const fw_model *model, const fw_scenario *sc, const fw_tick
     fw_scenario at = *sc;
     at.speed = fmax(at.speed, FW_SLOWEST);
     double    cpu = fw_cpu_seconds();
-    fw_status s = run_once(model, &at, tick, out, m);
+    bool      may_be_cured = false;
+    fw_status s = run_once(model, &at, tick, out, &may_be_cured, m);
     out->tries = 1;
-    if (s == FW_OK && fw_outcome_may_be_cured(out, model)) {
+    if (s == FW_OK && may_be_cured) {
         fw_model finer = fw_accuracy_finer(model);
         fw_outcome_begin_again(out, m);
-        s = run_once(&finer, &at, tick, out, m);
+        s = run_once(&finer, &at, tick, out, &may_be_cured, m);
     }
     if (s != FW_OK) {
         fw_record_free(out);

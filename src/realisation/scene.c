@@ -117,6 +117,7 @@ static fw_status run_once(const fw_scene *scene, const fw_model *model, double f
     fw_wear    wear = {0};
     fw_accuracy_setup(&setup, model, scene->speed, fastest);
     setup.half_width = setup.downstream = INFINITY; /* no untouched ice, and nobody is forgotten */
+    if (model->max_evaluations > 0) setup.max_evaluations = model->max_evaluations;
     fw_status s = fw_wear_init(&wear, model->structure_radius, model->n_arcs, model->n_laws, model->laws, m);
     if (s == FW_OK) s = fw_world_create(&w, model->structure_radius, m);
     if (s == FW_OK) s = fw_kernel_create(&k, &setup, m);
@@ -129,6 +130,7 @@ static fw_status run_once(const fw_scene *scene, const fw_model *model, double f
         if (s == FW_OK || s == FW_E_NUMERIC || s == FW_E_LIMIT) fill(scene, w, &wear, out);
         if (s == FW_OK) s = fw_verdict(&out->record, w, model->numerics.order ? INFINITY : setup.energy_tolerance, m);
     }
+    out->record.failed_at = s != FW_OK && k && w ? fw_kernel_now(k, w) : 0;
     fw_kernel_destroy(k);
     fw_world_destroy(w);
     fw_wear_free(&wear);
@@ -148,7 +150,7 @@ fw_status fw_scene_run(const fw_scene *scene, const fw_tick *tick, const fw_fram
     if (s == FW_OK) s = fw_alloc(&out->floes, scene->n_floes, sizeof *out->floes, "floes", m);
     if (s == FW_OK) s = run_once(scene, &scene->model, fastest, tick, frames, out, m);
     out->record.tries = 1;
-    if (s == FW_E_NUMERIC && fw_outcome_may_be_cured(&out->record, &scene->model)) {
+    if (s == FW_E_NUMERIC && scene->model.numerics.scheme == FW_SCHEME_EVENTS) {
         fw_model finer = fw_accuracy_finer(&scene->model);
         fw_outcome_begin_again(&out->record, m);
         s = run_once(scene, &finer, fastest, tick, frames, out, m);
@@ -159,6 +161,7 @@ fw_status fw_scene_run(const fw_scene *scene, const fw_tick *tick, const fw_fram
         fw_msg said = *m;
         fw_outcome_say(&out->record, m);
         *m = said;
+        s = out->record.status;
     }
     if (s != FW_OK && s != FW_E_NUMERIC && s != FW_E_LIMIT) fw_scene_result_free(out);
     return s;

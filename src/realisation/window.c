@@ -43,6 +43,22 @@ static void note_extent(fw_world *w)
         if (-w->bodies[i].x > l->reach) l->reach = -w->bodies[i].x;
 }
 
+double fw_window_now(const fw_window_run *r)
+{
+    if (!r->world) return 0;
+    return r->kernel ? fw_kernel_now(r->kernel, r->world) : r->world->t;
+}
+
+fw_status fw_window_feed(fw_window_run *r, double more, fw_msg *m)
+{
+    fw_ice_need need = ice_need(r);
+    need.from -= more;
+    r->is_ice = true;
+    FW_TRY(fw_ice_feed(&r->ice, r->world, &need, m));
+    r->is_ice = false;
+    return FW_OK;
+}
+
 static fw_status attend(void *self)
 {
     fw_window_run *r = self;
@@ -55,8 +71,7 @@ fw_status fw_window_go(fw_window_run *r, double t_end, double t_all, const fw_ti
     fw_world *w = r->world;
     r->tick = tick, r->t_all = t_all, r->stopped = FW_OK;
     for (size_t quiet = 1; w->t < t_end; quiet++) {
-        fw_ice_need need = ice_need(r);
-        FW_TRY(fw_ice_feed(&r->ice, w, &need, m));
+        FW_TRY(fw_window_feed(r, 0, m));
         if (r->plain)
             FW_TRY(fw_plain_step(r->plain, w, &r->wear, t_end, m));
         else
@@ -74,7 +89,9 @@ fw_status fw_window_open(fw_window_run *r, const fw_model *model, const fw_scena
     r->setup.attend = attend, r->setup.attend_self = r;
     FW_TRY(fw_cost_limit(model, sc, &r->setup.max_evaluations, m));
     FW_TRY(fw_wear_init(&r->wear, model->structure_radius, model->n_arcs, model->n_laws, model->laws, m));
+    r->is_ice = true;
     FW_TRY(lay(r, sc, m));
+    r->is_ice = false;
     fw_world_open_ledger(r->world);
     return FW_OK;
 }

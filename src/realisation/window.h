@@ -19,6 +19,7 @@ typedef struct fw_window_run {
     const fw_tick  *tick; /* of the present call */
     double          t_all;
     fw_status       stopped; /* what the tick said */
+    bool            is_ice;  /* it failed for want of ice, which no finer step cures */
 } fw_window_run;
 
 /* Ice round the structure, an open ledger, no wear collected yet. fw_window_close also after an error. r stays where it is. */
@@ -26,6 +27,9 @@ fw_status fw_window_open(fw_window_run *r, const fw_model *model, const fw_scena
 /* To t_end, where all floes stand at the same instant; the tick (NULL: none) is told the share of t_all every few milliseconds, and what it says
  * is in r->stopped. */
 fw_status fw_window_go(fw_window_run *r, double t_end, double t_all, const fw_tick *tick, fw_msg *m);
+double    fw_window_now(const fw_window_run *r); /* [s], also where it failed; 0 before there is a world */
+/* Ice for what is needed now and `more` upstream of it [m]. */
+fw_status fw_window_feed(fw_window_run *r, double more, fw_msg *m);
 void      fw_window_close(fw_window_run *r);
 
 #endif

@@ -74,6 +74,20 @@ class Failures(unittest.TestCase):
         # it is the same failure: a stiffer spring holds
         self.call("scene", name, "--set", "contact.stiffness=2000 kN/m")
 
+    def test_failure_is_told_whatever_becomes_of_the_scene(self):
+        first = self.failed_ids(self.call("run", "soft.yaml"))[0]
+        done = self.call("run", "soft.yaml", "--only-id", str(first), "-o", "missing/x.h5", code=3)
+        self.assertIn("no scene file: missing/x.failed-", done.stderr)
+        self.assertIn(f"realisation {first} failed: finer steps too: floe", done.stderr)
+        self.call("run", "soft.yaml", "--only-id", str(first), "-o", "there.h5", code=3)
+        self.assertIn(f"there.failed-{first}.yaml", os.listdir())
+
+    def test_nothing_but_failures(self):
+        """Even where so many may fail there is no answer then."""
+        done = self.call("run", "soft.yaml", "--set", "precision.max_failed=30", "--set", "contact.stiffness=1 kN/m", code=3)
+        self.assertIn("no realisation succeeded (30 failed)", done.stderr)
+        self.assertFalse(os.path.exists("soft.h5"))
+
     def test_a_good_one_alone_writes_nothing(self):
         failed = self.failed_ids(self.call("run", "soft.yaml"))
         good = next(i for i in range(30) if i not in failed)

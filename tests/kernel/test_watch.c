@@ -101,6 +101,11 @@ static void slip_chatters(void **state)
     step_of(&r, 3, -0.5, 1000); /* ends below the cap: creep, resolved */
     assert_false(fw_watch_step(&r.c, &s, 0.01));
     fw_watch_slip(&r.c, &l, last);
+    r.pair.jumped = 1, r.pair.law.mu = 0; /* without friction there is no cap: a change of sign is just one */
+    step_of(&r, 3, -3, 1000), r.pair.law.mu = 0;
+    assert_false(fw_watch_step(&r.c, &s, 0.01));
+    fw_watch_slip(&r.c, &l, last);
+    assert_true(l.chatter == 1 && r.pair.jumped == 0);
     step_of(&r, 3, -3, 0); /* ends without a force */
     assert_false(fw_watch_step(&r.c, &s, 0.01));
     fw_watch_slip(&r.c, &l, last);

@@ -96,6 +96,31 @@ static void goes_through(void **state)
     assert_true(n_failed > 0);
 }
 
+/* The limit holds for both tries together; a second one that meets it leaves the first one's failure, and says both. */
+static void limit_of_both_tries(void **state)
+{
+    (void)state;
+    fw_model    m;
+    fw_scenario s;
+    soft_contact(&m, &s);
+    for (uint64_t id = 0; id < 20; id++) {
+        fw_record r = run(&m, s, id);
+        if (r.status == FW_E_NUMERIC) {
+            fw_model tight = m;
+            tight.max_evaluations = floor(0.6 * r.force_evaluations);
+            fw_record both = run(&tight, s, id);
+            assert_true(both.status == FW_E_NUMERIC && both.tries == 2 && both.force_evaluations < r.force_evaluations);
+            has_piece(&both, "first try: floe ");
+            has_piece(&both, "; finer steps: more than ");
+            expect_same_bits(&tight, &s, &both);
+            fw_record_free(&both), fw_record_free(&r);
+            return;
+        }
+        fw_record_free(&r);
+    }
+    fail_msg("nobody failed");
+}
+
 /* What a failed window looks like shortly before: alone, and it fails the same way. */
 static void excerpt(void **state)
 {
@@ -192,7 +217,7 @@ static void frames_begin_again(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(too_many_evaluations), cmocka_unit_test(goes_through),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(too_many_evaluations), cmocka_unit_test(goes_through), cmocka_unit_test(limit_of_both_tries),
                                        cmocka_unit_test(excerpt), cmocka_unit_test(cured_by_finer_steps),
                                        cmocka_unit_test(frames_begin_again)};
     return cmocka_run_group_tests(tests, NULL, NULL);
