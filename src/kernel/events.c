@@ -8,6 +8,8 @@
 #include "kernel/watch.h"
 
 enum { MAX_LANDINGS = 8 };
+/* Events that only cut steps, one after the other: 400 floes about to touch at once are some hundreds. */
+enum { MAX_IDLE = 100000 };
 
 double fw_event_step_limit(const fw_kernel *k, const fw_cluster *c, double t_end)
 {
@@ -56,6 +58,7 @@ static fw_status commit(fw_kernel *k, fw_cluster *c, bool *has_opened, fw_msg *m
     size_t n_opened = 0;
     FW_TRY(fw_grow(&k->opened, &k->opened_capacity, c->n_pairs + 1, sizeof *k->opened, "clusters", m));
     FW_TRY(fw_cluster_commit(c, &k->traffic.books, k->opened, &n_opened, m));
+    k->n_idle = 0;
     for (size_t i = 0; i < n_opened; i++) {
         if (k->opened[i] < 0) continue;
         fw_candidate *e = &k->traffic.candidates[k->opened[i]];
@@ -262,9 +265,13 @@ fw_status fw_event_touch(fw_kernel *k, int32_t c, double t_end, fw_msg *m)
     fw_cluster         *a = t->seats[e->i].cluster, *b = e->j >= 0 ? t->seats[e->j].cluster : NULL;
     double              at = e->touch, closing;
     bool                is_touch, has_opened = false;
+    FW_CHECK(k->n_idle++ < MAX_IDLE, m, FW_E_NUMERIC, "floe %llu and another are looked at again and again without a touch at t = %.6g s",
+             (unsigned long long)t->world->bodies[e->i].name, t->now);
     FW_TRY(locate(k, c, a, b, &at, &closing, &is_touch, m));
     if (!is_touch) {
-        /* Steps were cut and paths have changed with them. */
+        /* Steps were cut and paths have changed with them. They stay cut where the touch was looked for first: let out again to where its search
+         * came to, they would lead to the same dip of the same path, for ever. */
+        if (at > t->candidates[c].touch) FW_TRY(land(k, a, b, t->candidates[c].touch, m));
         FW_TRY(both_look_ahead(k, a, b, m));
         if (a || b) return FW_OK;
         t->now = at; /* two free floes graze each other: look again from here on */
@@ -297,6 +304,7 @@ fw_status fw_event_touch(fw_kernel *k, int32_t c, double t_end, fw_msg *m)
     }
     FW_TRY(close_candidate(k, a, c, closing, m));
     FW_TRY(close_others(k, a, m));
+    k->n_idle = 0;
     fw_cluster_restart(a, &t->books);
     return go_on(k, a, t_end, has_opened, m);
 }

@@ -8,7 +8,7 @@
 struct fw_kernel {
     fw_traffic   traffic;
     double       horizon;  /* time between two listings [s] */
-    uint64_t     n_events;
+    uint64_t     n_events, n_idle; /* in all; since a step was committed or a contact closed */
     double       attended; /* force evaluations when somebody was last attended to */
     fw_cluster **clusters;
     size_t       n_clusters, cluster_capacity;
