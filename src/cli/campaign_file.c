@@ -122,7 +122,7 @@ static fw_status read_temperature(const fw_reader *r, const fw_node *n, double f
 static fw_status check_slow(const fw_node *n, double share, fw_msg *m)
 {
     if (share <= 0.1) return FW_OK;
-    return fw_yaml_fail(n, m, "current.speed is below %g m/s for %.2g %% of the time, wanted for at most 10 %%: a current that slow is simulated as %g m/s",
+    return fw_yaml_fail(n, m, "current.speed is below %g m/s for %.3g %% of the time, wanted for at most 10 %%: a current that slow is simulated as %g m/s",
                         FW_SLOWEST, 100 * share, FW_SLOWEST);
 }
 
