@@ -25,8 +25,8 @@
  * solver      sweeps of a stage may leave 3 times the tolerance: the error estimate sees what they leave, and the structure's contacts are left
  *             nothing (kernel/stage.c). At 1 a window at 40 % ice takes 4 % longer, at 8 less, but mean depth shows it (-0.14 %).
  * horizon     6 m of the current's way between two listings; 4 m take 3 % longer, 8 m as long.
- * Fields, means over windows, tests/validation/accuracy.md: at 1 % 10 % ice, 2000 windows, +0.04 +- 0.02 %; 40 % ice, 3000 windows, -0.06 +- 0.1 %;
- * 60 % ice, 1000 windows, 0.0 +- 0.5 %. Raahe's slow currents, 19 coupled windows: -0.06 +- 0.09 %. Jams decouple: two runs that differ in the last digit differ after a minute, so single
+ * Fields, means over windows, tests/validation/accuracy.md: at 1 % 10 % ice, 2000 windows, +0.05 +- 0.02 %; 40 % ice, 3000 windows, 0.0 +- 0.1 %;
+ * 60 % ice, 1000 windows, 0.1 +- 0.5 %. Raahe's slow currents, 19 coupled windows: -0.06 +- 0.09 %. Jams decouple: two runs that differ in the last digit differ after a minute, so single
  * windows at 40 % and more agree in the mean over fields and not one by one.
  *
  * Strip width against 200 m [%], 64 windows of 1800 s:                      40        60        80       100       140 m
