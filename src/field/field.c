@@ -105,7 +105,12 @@ void fw_field_destroy(fw_field *f)
 
 double          fw_field_tile_length(const fw_field *f) { return f->length; }
 double          fw_field_max_radius(const fw_field *f) { return 0.5 * f->sizes.max_diameter; }
-fw_field_census fw_field_count(const fw_field *f) { return f->census; }
+fw_field_census fw_field_count(const fw_field *f)
+{
+    fw_field_census c = f->census;
+    c.mean_diameter_wanted = f->sizes.mean_diameter;
+    return c;
+}
 
 /* --- table of tiles ---------------------------------------------------------------------------------------------- */
 

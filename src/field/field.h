@@ -61,6 +61,7 @@ typedef struct fw_field_census {
     size_t n_tiles, n_floes;   /* of finished tiles, also of those finished because a neighbour needed them */
     double ice_area, tile_area; /* [m2]; achieved concentration = ice_area / tile_area */
     double sum_diameter;        /* [m] */
+    double mean_diameter_wanted; /* of the law of sizes [m] */
 } fw_field_census;
 fw_field_census fw_field_count(const fw_field *f);
 

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "field/sizes.h"
 #include "realisation/accuracy.h"
 #include "realisation/outcome.h"
 #include "realisation/verdict.h"
@@ -24,10 +23,7 @@ static void describe(fw_record *rec, const fw_window_run *r, const fw_scenario *
     rec->floes_made = (double)c.n_floes;
     if (c.tile_area > 0) rec->concentration_achieved = c.ice_area / c.tile_area;
     if (c.n_floes > 0) rec->mean_diameter = c.sum_diameter / (double)c.n_floes;
-    fw_sizes sizes; /* the field was made from the same numbers: this cannot fail */
-    const fw_model *m = r->model;
-    if (fw_sizes_init(&sizes, &m->mixes[sc->mix], m->size_law, m->size_a, m->size_b, NULL) == FW_OK)
-        rec->mean_diameter_wanted = sizes.mean_diameter;
+    rec->mean_diameter_wanted = c.mean_diameter_wanted;
 }
 
 /* One try. Its evaluations count on from those that out has seen already. A failure of the physics or of its limits is a record; no memory,
