@@ -394,17 +394,10 @@ static void master_free(master *a)
     free(a->bytes);
 }
 
-static fw_status stop_on_signal(void *self, double done)
-{
-    (void)self;
-    (void)done;
-    return fw_signals_received() ? FW_E_STOPPED : FW_OK;
-}
-
 /* One realisation, alone and whatever the journal holds. */
 static fw_status master_run_one(const fw_run *run, fw_run_result *result, fw_msg *m)
 {
-    fw_tick     tick = {.call = stop_on_signal};
+    fw_tick     tick = {.call = fw_signals_tick};
     fw_scenario scenario;
     fw_record   record;
     fw_status   s;

@@ -45,3 +45,10 @@ int fw_signals_received(void)
 {
     return signals_first;
 }
+
+fw_status fw_signals_tick(void *self, double done)
+{
+    (void)self;
+    (void)done;
+    return fw_signals_received() ? FW_E_STOPPED : FW_OK;
+}

@@ -4,7 +4,11 @@
 #ifndef FW_CAMPAIGN_SIGNALS_H
 #define FW_CAMPAIGN_SIGNALS_H
 
+#include "floewear/status.h"
+
 void fw_signals_catch(void);     /* install the handlers; SIGHUP stays ignored under nohup */
 int  fw_signals_received(void);  /* the first signal's number, or 0 */
+/* An fw_tick's call: FW_E_STOPPED after a signal. self is not used. */
+fw_status fw_signals_tick(void *self, double done);
 
 #endif

@@ -90,16 +90,10 @@ static fw_status fails(const char *path, bool *it_does, fw_msg *m)
     return status == FW_E_NOMEM ? status : FW_OK;
 }
 
-static fw_status until_signal(void *self, double done)
-{
-    (void)self, (void)done;
-    return fw_signals_received() ? FW_E_STOPPED : FW_OK;
-}
-
 fw_status fw_failed_scene_write(const fw_campaign *c, const fw_record *r, const char *path, bool *is_written, fw_msg *m)
 {
     fw_scenario sc;
-    fw_tick     tick = {.call = until_signal};
+    fw_tick     tick = {.call = fw_signals_tick};
     /* as the try that failed last */
     fw_model    model = r->tries > 1 ? fw_accuracy_finer(&c->model) : c->model;
     double      from = INFINITY;
