@@ -41,7 +41,6 @@ fw_status fw_cluster_join(fw_cluster *c, const fw_books *books, int32_t body, in
                      .turn = b->radius * b->inv_inertia,
                      .drag_per_mass = b->drag * b->inv_mass,
                      .own_inv_mass = b->inv_mass,
-                     .inv_inertia = b->inv_inertia,
                      .mass = 1 / b->inv_mass,
                      .inertia = b->inv_inertia > 0 ? 1 / b->inv_inertia : 0,
                      .y0 = {b->x, b->y, 0, 0, b->vx, b->vy, b->spin, 0}};
@@ -92,8 +91,7 @@ fw_status fw_cluster_close(fw_cluster *c, const fw_books *books, int32_t a, int3
     if (eb) mark_touched(books, eb);
     books->world->ledger.touches++;
     /* Rims that overlap when they are found to touch (at the start of a scene, or late) bring the energy of their spring along. */
-    double dx = ea->y0[FW_X] - (eb ? eb->y0[FW_X] : 0), dy = ea->y0[FW_Y] - (eb ? eb->y0[FW_Y] : 0);
-    double depth = fw_larger(0, ea->radius + (eb ? eb->radius : set->structure_radius) - fw_length(dx, dy));
+    double depth = fw_larger(0, fw_world_overlap(books->world, ea->index, eb ? eb->index : FW_WALL));
     books->world->ledger.inflow += 0.5 * p->law.k * depth * depth;
     /* A gentle touch is a small jump: the local error of a step h grows with the jump times h^2, so its first step may be
      * longer. On the structure the pressure's start is wear, whatever the speed. */

@@ -29,7 +29,7 @@ typedef struct fw_member {
     double   resistance, ease;          /* 1 + hg drag_rate and its inverse */
     double   drag_rate, drag_per_mass;  /* drag x |u - v| / mass [1/s] that V was built with; drag / mass [1/m] */
     double   drag_speed; /* that |u - v| */
-    double   own_inv_mass, inv_inertia; /* of the floe */
+    double   own_inv_mass;              /* of the floe */
     double   mass, inertia;             /* 0: rotation is locked */
     /* the step: state at both ends, slopes of the state at the stages: (vx, vy, spin, 0, ax, ay, spin's, 0) */
     double   y0[8], y1[8], k[FW_MAX_STAGES][8];

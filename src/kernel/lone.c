@@ -279,7 +279,7 @@ static void finish(fw_cluster *c, const fw_books *b, double length)
     normal_at(L, y.turn, &nx, &ny);
     m->y1[FW_X] = y.reach * nx, m->y1[FW_Y] = y.reach * ny, m->y1[2] = m->y1[3] = 0;
     m->y1[FW_VX] = -y.rate * nx - y.along * ny, m->y1[FW_VY] = -y.rate * ny + y.along * nx;
-    m->y1[FW_SPIN] = m->inv_inertia > 0 ? (y.along - y.slip) / m->radius : m->y0[FW_SPIN], m->y1[7] = 0;
+    m->y1[FW_SPIN] = m->inertia > 0 ? (y.along - y.slip) / m->radius : m->y0[FW_SPIN], m->y1[7] = 0;
     m->fastest = fw_member_fastest(m, b->setup->speed, 1 / length);
     p->depth[0] = L->from.depth, p->rate[0] = L->from.rate, p->slip[0] = L->from.slip;
     p->depth[last] = y.depth, p->rate[last] = y.rate, p->slip[last] = y.slip;

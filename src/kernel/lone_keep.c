@@ -62,7 +62,7 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
     fw_pair            *p = &c->pairs[0];
     fw_body            *body = &b->world->bodies[m->index];
     fw_ledger          *l = &b->world->ledger;
-    double              h = L->length, mass = 1 / m->own_inv_mass, omega = p->law.omega, cut[MAX_CUTS];
+    double              h = L->length, mass = m->mass, omega = p->law.omega, cut[MAX_CUTS];
     double              drag_work = 0, dashpot = 0, friction = 0, jx = 0, jy = 0, load = 0, deepest = 0;
     double              impact_left = body->t_hit + 2 / omega - c->t0;
     int                 n = cut_up(L, p, set->method->n_stages - 1, set->wear_tolerance, impact_left, cut);
@@ -124,7 +124,7 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
     if (fw_books_overlap(l, fw_smaller(m->radius, set->structure_radius), deepest)) l->overlap_time += h;
     /* The contact's impulse along a turning normal has no closed form: it is what drag leaves of the change of momentum. So the two books of
      * impulses agree by construction here; the balance of work (dashpot, friction, drag, each by its own quadrature) is what checks. */
-    double in[3] = {mass, mass, m->inv_inertia > 0 ? 1 / m->inv_inertia : 0}, work = 0;
+    double in[3] = {mass, mass, m->inertia}, work = 0;
     for (int q = 0; q < 3; q++) {
         double v0 = m->y0[FW_VX + q], v1 = m->y1[FW_VX + q];
         work += 0.5 * in[q] * (v1 - v0) * (v1 + v0);

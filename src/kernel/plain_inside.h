@@ -42,6 +42,31 @@ struct fw_plain {
     size_t  gone_capacity;
 };
 
+/* A near pair at this instant, normal from b (NULL: the structure) to a. */
+typedef struct fw_plain_meeting {
+    fw_body *a, *b;
+    double   nx, ny, normal, slip, depth;
+} fw_plain_meeting;
+
+/* Do they overlap? Else only a and b are filled. */
+static inline bool fw_plain_meets(const fw_plain *p, fw_world *w, size_t q, fw_plain_meeting *to)
+{
+    fw_near  e = p->neighbours.near[q];
+    fw_body *a = &w->bodies[e.i], *b = e.j == FW_WALL ? NULL : &w->bodies[e.j];
+    double   dx = a->x, dy = a->y, ux = a->vx, uy = a->vy, turn = a->radius * a->spin, reach = a->radius;
+    if (b)
+        dx -= b->x, dy -= b->y, ux -= b->vx, uy -= b->vy, turn += b->radius * b->spin, reach += b->radius;
+    else
+        reach += p->setup.structure_radius;
+    to->a = a, to->b = b;
+    double r2 = dx * dx + dy * dy;
+    if (r2 >= reach * reach) return false;
+    double r = sqrt(r2), nx = dx / r, ny = dy / r;
+    to->nx = nx, to->ny = ny, to->depth = reach - r;
+    to->normal = fw_contact_normal(&p->law[q], to->depth, -(nx * ux + ny * uy)), to->slip = nx * uy - ny * ux - turn;
+    return true;
+}
+
 /* Accelerations of the first n floes, for Verlet: of those that were there at the start. What is woken later drifts with the water. */
 void fw_plain_begin_slopes(fw_plain *p, fw_world *w, size_t n);
 /* One step of the scheme; advances the world's time and drift. */

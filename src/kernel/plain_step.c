@@ -34,18 +34,12 @@ static inline void forces(fw_plain *p, fw_world *w, fw_wear *wear, double weight
         f[3 * i] = drag * rx, f[3 * i + 1] = drag * ry, f[3 * i + 2] = 0;
     }
     for (size_t q = 0; q < p->neighbours.n_near; q++) {
-        fw_near  e = p->neighbours.near[q];
-        fw_body *a = &w->bodies[e.i], *b = e.j == FW_WALL ? NULL : &w->bodies[e.j];
-        double   dx = a->x, dy = a->y, ux = a->vx, uy = a->vy, turn = a->radius * a->spin, reach = a->radius;
-        if (b)
-            dx -= b->x, dy -= b->y, ux -= b->vx, uy -= b->vy, turn += b->radius * b->spin, reach += b->radius;
-        else
-            reach += s->structure_radius;
-        double r2 = dx * dx + dy * dy;
-        if (r2 >= reach * reach) continue;
-        double r = sqrt(r2), nx = dx / r, ny = dy / r, depth = reach - r;
-        double n = fw_contact_normal(&p->law[q], depth, -(nx * ux + ny * uy)), slip = nx * uy - ny * ux - turn;
-        double t = fw_contact_friction(&p->law[q], n, slip), fx = n * nx - t * ny, fy = n * ny + t * nx;
+        fw_near          e = p->neighbours.near[q];
+        fw_plain_meeting c;
+        if (!fw_plain_meets(p, w, q, &c)) continue;
+        fw_body *a = c.a, *b = c.b;
+        double   n = c.normal, slip = c.slip, depth = c.depth;
+        double   t = fw_contact_friction(&p->law[q], n, slip), fx = n * c.nx - t * c.ny, fy = n * c.ny + t * c.nx;
         w->ledger.force_evaluations++;
         f[3 * e.i] += fx, f[3 * e.i + 1] += fy, f[3 * e.i + 2] -= t * a->radius;
         if (b) {
