@@ -116,6 +116,22 @@ static uint64_t end_judging(void *self, fw_status status)
     return status == FW_OK ? inject_hash(inject_hash(0, &j->error, sizeof j->error), &j->value, sizeof j->value) : 0;
 }
 
+/* A few windows at every level of everything that is studied, by one law. */
+static void sparse_scenario(const fw_campaign *c, uint64_t id, fw_scenario *out)
+{
+    *out = (fw_scenario){.seed = c->seed, .id = id, .concentration = 0.1, .speed = 1};
+}
+
+static fw_status study_all(void *self, fw_msg *m)
+{
+    judging            *j = self;
+    fw_accuracy         a;
+    fw_accuracy_options o = {.scenario = sparse_scenario, .cpu_budget_s = 0};
+    fw_status           s = fw_accuracy_study(&a, &j->campaign, &o, m);
+    if (s == FW_OK) fw_accuracy_free(&a);
+    return s;
+}
+
 static void accuracy(void **state)
 {
     (void)state;
@@ -128,6 +144,9 @@ static void accuracy(void **state)
     }
     inject_walk(&(inject_case){
         .name = "error of a percentile", .run = judge_percentile, .end = end_judging, .self = &j});
+    fw_model_defaults(&j.campaign.model);
+    j.campaign.model.window = 60, j.campaign.model.warm_up = 0, j.campaign.seed = 3;
+    inject_walk(&(inject_case){.name = "whole accuracy study", .run = study_all, .end = end_judging, .self = &j});
     inject_walk(&(inject_case){.name = "embedded hits", .run = judge_hits, .end = end_judging, .self = &j});
     for (size_t id = 0; id < N_RECORDS; id++) fw_record_free(&j.records[id]);
 }
