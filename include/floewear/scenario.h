@@ -23,7 +23,15 @@ typedef enum fw_effect_bit {
     FW_EFFECT_FLOE_CONTACT = 1u << 0,
     FW_EFFECT_FRICTION = 1u << 1,
     FW_EFFECT_ROTATION = 1u << 2,
-    FW_EFFECT_FORM_DRAG = 1u << 3
+    FW_EFFECT_FORM_DRAG = 1u << 3,
+    FW_EFFECT_SKIN_DRAG = 1u << 4,      /* of the water on the lower face: force and spin torque */
+    FW_EFFECT_WIND = 1u << 5,
+    FW_EFFECT_ADDED_MASS = 1u << 6,
+    FW_EFFECT_TIDE = 1u << 7,           /* a current that changes within the window */
+    FW_EFFECT_DEFLECTED_FLOW = 1u << 8, /* round the structure */
+    FW_EFFECT_CRUSHING_LIMIT = 1u << 9, /* on the pressure that wears; acts in abrasion alone */
+    FW_EFFECT_ICE_ON_ICE = 1u << 10,    /* stiffness and friction of their own between floes */
+    FW_EFFECT_CRUSH_CONTACT = 1u << 11  /* contact.law: crush instead of the spring */
 } fw_effect_bit;
 enum { FW_EFFECTS_CORE = 0xf };
 
@@ -88,6 +96,41 @@ typedef struct fw_numerics {
     double       growth;     /* largest factor from one step to the next; 0: chosen */
 } fw_numerics;
 
+/* Pressure of ice that crushes: p = pressure (A / 1 m2)^-exponent, A the nominal contact area b h. */
+typedef struct fw_pressure_law {
+    double pressure; /* at 1 m2 [Pa] */
+    double exponent; /* 0: constant */
+} fw_pressure_law;
+
+/* Air over the floes: a skin on pi R^2 and a side of the freeboard (1 - rho_i / rho_w) h times D. */
+typedef struct fw_wind {
+    double density;   /* of the air [kg/m3] */
+    double skin_drag; /* on pi R^2 [-] */
+    double form_drag; /* on the freeboard's side [-] */
+} fw_wind;
+
+/* A current that changes within the window. The scenario's speed is that of the window's middle, and +x its direction then.
+ * n_rows = 0: an ellipse, u = major (cos phi, minor_ratio sin phi) turned and scaled to that; else a table, straight between its rows. */
+enum { FW_MAX_COURSE = 512 };
+typedef struct fw_course_row {
+    double time;   /* since the window's start [s], ascending; the warm-up goes as the first row */
+    double factor; /* of the scenario's speed [-] */
+    double turn;   /* from +x, anticlockwise seen from above [rad] */
+} fw_course_row;
+typedef struct fw_tide {
+    double         period;      /* [s] */
+    double         minor_ratio; /* -1 .. 1; < 0 turns clockwise; 0: to and fro */
+    double         phase;       /* of the window's middle [rad]; NAN: drawn, evenly over the period */
+    size_t         n_rows;
+    fw_course_row *rows;        /* (n_rows), owned by the model's campaign or scene */
+} fw_tide;
+
+typedef struct fw_crush {
+    fw_pressure_law law;
+    double          unloading; /* slope of the unloading line over force / deepest overlap [-]; <= 0: restitution e^-2 head-on */
+    bool            has_flat;  /* the crushed flat carries a moment up to N b / 2 */
+} fw_crush;
+
 typedef struct fw_model {
     double   structure_radius;   /* [m] */
     double   ice_density;        /* [kg/m3] */
@@ -98,6 +141,16 @@ typedef struct fw_model {
     double   friction;           /* mu [-] */
     double   slip_damping_ratio; /* ct = slip_damping_ratio c [-] */
     uint32_t effects;            /* fw_effect_bit set */
+
+    /* What the further effects act with; each while its bit is set. */
+    double          skin_drag;      /* Cs on the face pi R^2 [-] */
+    double          floe_stiffness; /* k between floes [N/m] */
+    double          floe_friction;  /* mu between floes [-] */
+    fw_wind         wind;           /* speed and angle are the scenario's */
+    fw_tide         tide;
+    fw_pressure_law crushing_limit; /* on the pressure that wears */
+    fw_crush        crush;          /* contact law, and stiffness_from_pressure */
+    bool            stiffness_from_pressure; /* k of every contact from crush.law, the floes and the current's speed instead of stiffness */
 
     size_t          n_laws;
     fw_abrasion_law laws[FW_MAX_LAWS]; /* the first one governs stop rule and default report */
@@ -124,6 +177,9 @@ typedef struct fw_scenario {
     double   speed;         /* of the current [m/s], > 0 */
     uint32_t mix;           /* index into fw_model.mixes */
     uint32_t cell; /* index into fw_site.cells when the site has a joint table, else 0: names the direction law */
+    double   wind_speed; /* [m/s]; 0 without wind */
+    double   wind_angle; /* where the wind blows to, from +x, anticlockwise seen from above [rad] */
+    double   tide_phase; /* of the window's middle [rad]; 0 without tide */
 } fw_scenario;
 
 /* One cell of a joint site table: a value of (speed, concentration, thickness) with its share of time and the law of
@@ -141,6 +197,8 @@ typedef struct fw_site {
     fw_distribution direction;         /* [deg], flows TO, clockwise from north; integrated, not sampled */
     fw_distribution temperature;       /* [degC], < 0; integrated, not sampled */
     double          temperature_floor; /* smallest |T| allowed [K], default 1.8 */
+    fw_distribution wind_speed;        /* [m/s]; constant 0 without wind */
+    fw_distribution wind_angle;        /* where it blows to, from the current's direction, clockwise from above [deg] */
     size_t          n_cells;           /* > 0: joint table; then speed, concentration, direction above are unused */
     fw_site_cell   *cells;             /* (n_cells), owned */
 } fw_site;

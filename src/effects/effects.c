@@ -48,6 +48,7 @@ bool fw_effects_needed(const fw_effect *e, const fw_model *m, char *reason, size
         is_needed = m->form_drag > 0 && m->water_density > 0;
         snprintf(reason, n_reason, "form drag coefficient %g on the side area D h", m->form_drag);
         break;
+    default: return false;
     }
     return is_needed;
 }

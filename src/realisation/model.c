@@ -19,6 +19,13 @@ void fw_model_defaults(fw_model *m)
         .friction = 0.1,    /* source paper, table 1 */
         .slip_damping_ratio = 1,
         .effects = FW_EFFECTS_CORE,
+        .skin_drag = 0.0055,   /* ice on water: Leppaeranta, The Drift of Sea Ice (2011) */
+        .floe_stiffness = 2e6,
+        .floe_friction = 0.1,
+        .wind = {.density = 1.3, .skin_drag = 0.0018, .form_drag = 1.1},
+        .tide = {.period = 12.42 * 3600, .phase = NAN},
+        .crushing_limit = {5e6, 0},
+        .crush = {.law = {1.1e6, 0}, .has_flat = true},
         .n_laws = 1,
         .n_mixes = 1,
         .size_law = FW_SIZE_UNIFORM,
