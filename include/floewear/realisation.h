@@ -31,6 +31,8 @@ typedef struct fw_scene {
     double   speed;       /* current [m/s] along +x */
     double   temperature; /* [degC] */
     double   duration;    /* [s] */
+    double   wind_speed, wind_angle; /* as in fw_scenario: [m/s], [rad] */
+    double   tide_phase;  /* in the middle of the duration [rad] */
     size_t   n_floes;
     fw_floe *floes; /* (n_floes), owned */
 } fw_scene;

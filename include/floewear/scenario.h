@@ -109,8 +109,8 @@ typedef struct fw_wind {
     double form_drag; /* on the freeboard's side [-] */
 } fw_wind;
 
-/* A current that changes within the window. The scenario's speed is that of the window's middle, and +x its direction then.
- * n_rows = 0: an ellipse, u = major (cos phi, minor_ratio sin phi) turned and scaled to that; else a table, straight between its rows. */
+/* A current that changes within the window. n_rows = 0: an ellipse, u = speed (cos phi, minor_ratio sin phi), the scenario's speed being the
+ * largest of the tide and +x its direction then; else a table, straight between its rows. */
 enum { FW_MAX_COURSE = 512 };
 typedef struct fw_course_row {
     double time;   /* since the window's start [s], ascending; the warm-up goes as the first row */

@@ -27,7 +27,7 @@ void fw_cluster_free(fw_cluster *c)
 
 void fw_cluster_find_stiffest(fw_cluster *c)
 {
-    c->omega = 0;
+    c->omega = c->pace;
     for (size_t k = 0; k < c->n_pairs; k++) c->omega = fw_larger(c->omega, c->pairs[k].law.omega);
 }
 
@@ -40,6 +40,8 @@ fw_status fw_cluster_join(fw_cluster *c, const fw_books *books, int32_t body, in
                      .radius = b->radius,
                      .turn = b->radius * b->inv_inertia,
                      .drag_per_mass = b->drag * b->inv_mass,
+                     .air_per_mass = b->air * b->inv_mass,
+                     .spin_per_inertia = b->spin_drag * b->inv_inertia,
                      .own_inv_mass = b->inv_mass,
                      .mass = 1 / b->inv_mass,
                      .inertia = b->inv_inertia > 0 ? 1 / b->inv_inertia : 0,
@@ -84,7 +86,7 @@ fw_status fw_cluster_close(fw_cluster *c, const fw_books *books, int32_t a, int3
     fw_member *ea = &c->members[a], *eb = other == FW_WALL ? NULL : &c->members[other];
     fw_pair   *p = &c->pairs[c->n_pairs++];
     *p = (fw_pair){.a = a, .b = other, .t_touch = c->t0, .candidate = candidate};
-    p->law = fw_contact_law_apply(&set->contact, 1 / (ea->own_inv_mass + (eb ? eb->own_inv_mass : 0)));
+    p->law = fw_contact_law_apply(eb ? &set->floe_contact : &set->contact, 1 / (ea->own_inv_mass + (eb ? eb->own_inv_mass : 0)));
     p->mu = p->law.mu;
     c->omega = fw_larger(c->omega, p->law.omega);
     mark_touched(books, ea);
@@ -151,14 +153,13 @@ static bool has_hole(const fw_pair *p, size_t last)
     return false;
 }
 
-double fw_member_fastest(const fw_member *m, double speed, double inv_h)
+double fw_member_fastest(const fw_member *m, const fw_flow *flow, double inv_h)
 {
-    const double *v0 = m->y0 + FW_VX, *v1 = m->y1 + FW_VX;
+    const double *v0 = m->y0 + FW_VX, *v1 = m->y1 + FW_VX, ux = flow->ux, uy = flow->uy;
     double        mx = 3 * (m->y1[FW_X] - m->y0[FW_X]) * inv_h - v0[0] - v1[0],
            my = 3 * (m->y1[FW_Y] - m->y0[FW_Y]) * inv_h - v0[1] - v1[1];
-    double r0 = (v0[0] - speed) * (v0[0] - speed) + v0[1] * v0[1],
-           r1 = (v1[0] - speed) * (v1[0] - speed) + v1[1] * v1[1];
-    return sqrt(fw_larger(fw_larger(r0, r1), (mx - speed) * (mx - speed) + my * my));
+    double r0 = (v0[0] - ux) * (v0[0] - ux) + (v0[1] - uy) * (v0[1] - uy), r1 = (v1[0] - ux) * (v1[0] - ux) + (v1[1] - uy) * (v1[1] - uy);
+    return sqrt(fw_larger(fw_larger(r0, r1), (mx - ux) * (mx - ux) + (my - uy) * (my - uy)));
 }
 
 /* One step h on trial: local error over what is tolerated, of velocity and of wear. */
@@ -181,7 +182,7 @@ static double attempt(fw_cluster *c, const fw_books *books, double h)
         double err = h * fw_larger(fw_length(e[0], e[1]), m->radius * fabs(e[2]));
         worst = fw_larger(worst, err);
         is_finite &= err < INFINITY;
-        m->fastest = fw_member_fastest(m, set->speed, inv);
+        m->fastest = fw_member_fastest(m, &set->flow, inv);
     }
     worst /= set->tolerance * set->velocity_scale;
     for (size_t k = 0; k < c->n_pairs; k++) {

@@ -29,11 +29,13 @@ typedef struct fw_member {
     double   resistance, ease;          /* 1 + hg drag_rate and its inverse */
     double   drag_rate, drag_per_mass;  /* drag x |u - v| / mass [1/s] that V was built with; drag / mass [1/m] */
     double   drag_speed; /* that |u - v| */
+    double   ux, uy;     /* the water there [m/s] */
+    double   air_rate, air_per_mass, spin_slows, spin_per_inertia; /* the same of the wind; of the water on spin [1/s2], [1/(m R)] */
     double   own_inv_mass;              /* of the floe */
     double   mass, inertia;             /* 0: rotation is locked */
     /* the step: state at both ends, slopes of the state at the stages: (vx, vy, spin, 0, ax, ay, spin's, 0) */
     double   y0[8], y1[8], k[FW_MAX_STAGES][8];
-    double   drag[FW_MAX_STAGES][2];
+    double   drag[FW_MAX_STAGES][3]; /* acceleration by water and wind, and of spin */
     double   fastest;           /* bound of |v - u| over the tried step [m/s] */
     double   gained[3], shoved, twisted; /* books' sums of one step: velocity from impulses, and their size without sign, spin's too */
     int32_t  index;             /* of the body in the world */
@@ -73,7 +75,8 @@ typedef struct fw_step_books {
 typedef struct fw_cluster {
     double     t0, t1;  /* t1 == t0: no step tried yet */
     double     h;       /* step to try next [s]; INFINITY: none known */
-    double     omega;   /* of the stiffest contact [1/s] */
+    double     omega;   /* of the stiffest contact [1/s], at least the pace */
+    double     pace;    /* of what happens without a contact [1/s]; 0 where floes in none are in no cluster */
     bool       is_kept; /* steps may not pass the next listing: members are about to be forgotten */
     fw_member  wall;    /* the structure as a member that nothing moves: a sweep needs no branch for it */
     size_t     n_members, member_capacity, n_pairs, pair_capacity;
@@ -130,7 +133,7 @@ fw_status fw_cluster_not_finite(const fw_cluster *c, const fw_books *b, fw_msg *
 double fw_cluster_lets_go(const fw_cluster *c, const fw_pair *p, const fw_method *me);
 
 /* Bound of |v - u| over a tried step: the cubic's velocity is a parabola, bounded by its control points v0, middle, v1. */
-double fw_member_fastest(const fw_member *m, double speed, double inv_h);
+double fw_member_fastest(const fw_member *m, const fw_flow *flow, double inv_h);
 
 /* books.c: of the tried step */
 void                 fw_books_weigh(fw_cluster *c, const fw_setup *set, double h); /* into c->tried */

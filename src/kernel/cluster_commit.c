@@ -79,7 +79,7 @@ fw_status fw_cluster_commit(fw_cluster *c, const fw_books *books, int32_t *opene
         b->t = c->t0;
         for (int q = 0; q < 8; q++) m->y0[q] = m->y1[q], m->k[0][q] = m->k[last][q];
         b->x = m->y0[FW_X], b->y = m->y0[FW_Y], b->vx = m->y0[FW_VX], b->vy = m->y0[FW_VY], b->spin = m->y0[FW_SPIN];
-        m->drag[0][0] = m->drag[last][0], m->drag[0][1] = m->drag[last][1];
+        for (int q = 0; q < 3; q++) m->drag[0][q] = m->drag[last][q];
     }
     FW_TRY(let_go(c, books, is_lone, opened, n_opened, msg));
     /* Accelerations are velocity differences over the step: after a sliver of one they are rounding noise. */

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "kernel/forces.h"
 #include "kernel/wake.h"
 #include "kernel/watch.h"
 
@@ -82,8 +83,13 @@ void fw_event_fly(fw_kernel *k, int32_t i, double t)
     if (b->t == t) return;
     fw_path  p = fw_path_of_flying(&k->traffic.setup, b);
     fw_place at = fw_path_at(&p, t);
-    k->traffic.world->ledger.drag_work += 0.5 * (at.vx * at.vx + at.vy * at.vy - b->vx * b->vx - b->vy * b->vy) /
-                                          b->inv_mass;
+    fw_ledger *l = &k->traffic.world->ledger;
+    l->drag_work += 0.5 * (at.vx * at.vx + at.vy * at.vy - b->vx * b->vx - b->vy * b->vy) / b->inv_mass;
+    if (b->spin_drag > 0 && b->inv_inertia > 0) {
+        double spin = fw_flight_spin(b, p.r, p.K, t - b->t);
+        l->drag_work += 0.5 * (spin * spin - b->spin * b->spin) / b->inv_inertia;
+        b->spin = spin;
+    }
     b->x = at.x, b->y = at.y, b->vx = at.vx, b->vy = at.vy, b->t = t;
 }
 
@@ -99,15 +105,16 @@ static fw_status wake(fw_kernel *k, int32_t c, fw_msg *m)
     int32_t j = (int32_t)w->n_bodies - 1;
     FW_TRY(fw_grow(&t->seats, &t->seat_capacity, w->n_bodies + 1, sizeof *t->seats, "candidates", m));
     fw_body *b = &w->bodies[j];
-    b->x += t->setup.speed * (t->now - b->t);
+    b->x += t->setup.flow.ice_x * (t->now - b->t), b->y += t->setup.flow.ice_y * (t->now - b->t);
     b->t = t->now;
     /* no margin: it leaves this line at once and is listed then */
-    t->seats[j] = (fw_seat){.first = -1, .t = b->t, .x = b->x, .y = b->y, .vx = b->vx, .margin = -1, .reach = b->radius - 1};
+    t->seats[j] = (fw_seat){.first = -1, .t = b->t, .x = b->x, .y = b->y, .vx = b->vx, .vy = b->vy, .margin = -1, .reach = b->radius - 1};
     k->n_seated = w->n_bodies;
     fw_traffic_woken(t, c, j);
     /* What it may push lies where no ice has been made yet: list anew before going on. */
-    double margin = b->radius + fw_kernel_ice_margin(k), drift = w->drift + t->setup.speed * (t->now - w->t);
-    if (b->x - drift - margin < w->ice_from || b->y - margin < w->ice_low || b->y + margin > w->ice_high) t->until = t->now;
+    double margin = b->radius + fw_kernel_ice_margin(k), gone = t->now - w->t;
+    double X = b->x - (w->drift_x + t->setup.flow.ice_x * gone), Y = b->y - (w->drift_y + t->setup.flow.ice_y * gone);
+    if (X - margin < w->ice_from || X + margin > w->ice_to || Y - margin < w->ice_low || Y + margin > w->ice_high) t->until = t->now;
     return FW_OK;
 }
 
@@ -136,7 +143,8 @@ static double pair_omega(const fw_kernel *k, const fw_candidate *e)
         double          r = b->radius[e->row];
         inv += 1 / fw_kernel_floe_mass(&k->traffic.setup, r, b->thickness[e->row]);
     }
-    return sqrt(k->traffic.setup.contact.stiffness * inv);
+    const fw_setup *s = &k->traffic.setup;
+    return sqrt((e->j == FW_WALL ? s->contact : s->floe_contact).stiffness * inv);
 }
 
 /* A gap g left at the touch is a force k g that is not there (or too early): w g in velocity within 1/w. It is compared with the

@@ -2,6 +2,7 @@
 #include "kernel/inside.h"
 
 #include "base/memory.h"
+#include "kernel/forces.h"
 
 fw_status fw_flock_new(fw_kernel *k, double t, fw_cluster **out, fw_msg *m)
 {
@@ -13,10 +14,23 @@ fw_status fw_flock_new(fw_kernel *k, double t, fw_cluster **out, fw_msg *m)
     else
         FW_TRY(fw_alloc(&c, 1, sizeof *c, "cluster", m));
     c->n_members = c->n_pairs = 0;
-    c->t0 = c->t1 = t, c->h = INFINITY, c->omega = c->dissipated = 0, c->is_kept = c->is_weighed = false;
+    c->t0 = c->t1 = t, c->h = INFINITY, c->dissipated = 0, c->is_kept = c->is_weighed = false;
+    c->omega = c->pace = fw_has_flight(&k->traffic.setup) ? 0 : k->traffic.setup.velocity_scale; /* over 1 m */
     c->lone.t1 = NAN; /* nobody's step */
     k->clusters[k->n_clusters++] = c;
     *out = c;
+    return FW_OK;
+}
+
+fw_status fw_flock_alone(fw_kernel *k, int32_t body, fw_msg *m)
+{
+    fw_traffic *t = &k->traffic;
+    fw_cluster *c;
+    int32_t     member;
+    FW_TRY(fw_flock_new(k, t->now, &c, m));
+    FW_TRY(fw_cluster_join(c, &t->books, body, &member, m));
+    fw_flock_seat(k, c);
+    fw_cluster_restart(c, &t->books);
     return FW_OK;
 }
 
@@ -56,13 +70,13 @@ fw_status fw_flock_fall_apart(fw_kernel *k, fw_cluster *c, size_t *first, fw_msg
         int32_t a = find_root(k->root, p->a), b = find_root(k->root, p->b);
         k->root[a < b ? b : a] = a < b ? a : b;
     }
-    bool is_whole = true;
+    bool is_whole = true, may_be_alone = !fw_has_flight(&k->traffic.setup);
     for (size_t i = 0; i < c->n_members; i++)
-        is_whole &= find_root(k->root, (int32_t)i) == 0 && c->members[i].n_pairs > 0;
+        is_whole &= find_root(k->root, (int32_t)i) == 0 && (c->members[i].n_pairs > 0 || (may_be_alone && c->n_members == 1));
     if (is_whole) return FW_OK;
     for (size_t r = 0; r < c->n_members; r++) {
         if (k->root[r] != (int32_t)r) continue;
-        if (c->members[r].n_pairs == 0) {
+        if (c->members[r].n_pairs == 0 && !may_be_alone) {
             k->traffic.seats[c->members[r].index].cluster = NULL;
             continue;
         }

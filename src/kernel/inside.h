@@ -23,9 +23,10 @@ struct fw_kernel {
 
 /* flock.c */
 fw_status fw_flock_new(fw_kernel *k, double t, fw_cluster **out, fw_msg *m);
+fw_status fw_flock_alone(fw_kernel *k, int32_t body, fw_msg *m); /* a cluster of one, in no contact, from now on */
 void      fw_flock_retire(fw_kernel *k, fw_cluster *c); /* emptied; its memory is kept for the next */
 void      fw_flock_seat(fw_kernel *k, fw_cluster *c);   /* members' seats name it */
-/* Members that nothing holds fly on alone; parts that nothing joins become clusters of their own. The new ones stand at the end
+/* Members that nothing holds fly on alone (or go on as clusters of one, forces.h); parts that nothing joins become clusters of their own. The new ones stand at the end
  * of k->clusters, from *first on; c is empty then, and retired. */
 fw_status fw_flock_fall_apart(fw_kernel *k, fw_cluster *c, size_t *first, fw_msg *m);
 

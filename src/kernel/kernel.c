@@ -14,6 +14,7 @@
 
 #include "base/memory.h"
 #include "kernel/inside.h"
+#include "kernel/strip.h"
 
 /* Floes squeezed out from between others have been seen at up to twice the current's speed relative to the water; who is faster than
  * this is checked without the shortcut that it bounds. */
@@ -52,17 +53,41 @@ void fw_kernel_destroy(fw_kernel *k)
 /* Beyond an awake floe's rim: whom it may reach until the next listing. Whom those push in turn is looked at when they wake (events.c). */
 double fw_kernel_ice_margin(const fw_kernel *k) { return k->traffic.setup.horizon + k->traffic.setup.margin; }
 
-void fw_kernel_needs_ice(const fw_kernel *k, const fw_world *w, double *from, double *low, double *high)
+static void include(fw_box *box, double x, double y, double r)
 {
-    /* Floes that the structure reaches before the next listing wake with it (listing.c): their far rims count. */
-    double margin = fw_kernel_ice_margin(k), r = w->structure_radius + 2 * w->max_radius;
-    *from = -r - k->traffic.setup.horizon, *low = -r, *high = r;
-    for (size_t i = 0; i < w->n_bodies; i++) {
-        const fw_body *b = &w->bodies[i];
-        *from = fw_smaller(*from, b->x - b->radius);
-        *low = fw_smaller(*low, b->y - b->radius), *high = fw_larger(*high, b->y + b->radius);
-    }
-    *from -= margin, *low -= margin, *high += margin;
+    box->x0 = fw_smaller(box->x0, x - r), box->x1 = fw_larger(box->x1, x + r);
+    box->y0 = fw_smaller(box->y0, y - r), box->y1 = fw_larger(box->y1, y + r);
+}
+
+fw_box fw_kernel_needs_ice(const fw_kernel *k, const fw_world *w)
+{
+    /* Floes that the structure reaches before the next listing wake with it (listing.c): their far rims count. So do those that are awake
+     * wherever they are, on the structure's line upstream across the whole strip. */
+    const fw_setup *s = &k->traffic.setup;
+    fw_strip        strip = fw_strip_of(s, w);
+    double          margin = fw_kernel_ice_margin(k), r = fw_larger(w->structure_radius + 2 * w->max_radius, s->wake_radius);
+    fw_box          box = {0, 0, 0, 0};
+    include(&box, 0, 0, r);
+    include(&box, -s->horizon * strip.cx, -s->horizon * strip.cy, r);
+    if (s->wake_upstream > 0)
+        for (int side = -1; side <= 1; side += 2) {
+            double along = -s->wake_upstream - s->horizon, across = side * s->half_width;
+            include(&box, strip.cx * along - strip.cy * across, strip.cy * along + strip.cx * across, 0);
+        }
+    for (size_t i = 0; i < w->n_bodies; i++) include(&box, w->bodies[i].x, w->bodies[i].y, w->bodies[i].radius);
+    include(&box, box.x0, box.y0, margin);
+    include(&box, box.x1, box.y1, margin);
+    return box;
+}
+
+void fw_kernel_turn(fw_kernel *k, fw_world *w, const fw_flow *flow)
+{
+    fw_traffic *t = &k->traffic;
+    t->setup.flow = *flow;
+    t->world = w;
+    t->books.setup = &t->setup, t->books.world = w;
+    for (size_t i = 0; i < k->n_clusters; i++) fw_cluster_restart(k->clusters[i], &t->books);
+    t->is_listed = false;
 }
 
 double fw_kernel_now(const fw_kernel *k, const fw_world *w) { return fw_larger(w->t, k->traffic.now); }
@@ -107,7 +132,7 @@ fw_status fw_kernel_step(fw_kernel *k, fw_world *w, fw_wear *wear, double t_end,
                  "more than %.3g force evaluations at t = %.6g s", s->max_evaluations, t->now);
     }
     double until = fw_smaller(t_end, t->until);
-    w->drift += s->speed * (until - w->t);
+    w->drift_x += s->flow.ice_x * (until - w->t), w->drift_y += s->flow.ice_y * (until - w->t);
     w->t = t->now = until;
     w->ledger.macro_steps++;
     if (until < t_end) return FW_OK;

@@ -13,17 +13,29 @@
 #define FW_KERNEL_KERNEL_H
 
 #include "abrasion/wear.h"
+#include "floewear/scenario.h"
 #include "floewear/status.h"
 #include "kernel/method.h"
 #include "world/world.h"
 
+/* What carries the floes from outside [m/s]. It changes between two steps only: fw_kernel_turn. */
+typedef struct fw_flow {
+    double ux, uy;         /* water, far from the structure */
+    double ice_x, ice_y;   /* ice that nothing has touched */
+    double wind_x, wind_y; /* air */
+} fw_flow;
+
 typedef struct fw_setup {
     double           structure_radius; /* [m] */
-    double           speed;            /* of the current along +x [m/s] */
-    fw_contact_law   contact;
+    fw_flow          flow;
+    fw_contact_law   contact, floe_contact; /* with the structure; between floes */
     bool             has_floe_contact, has_drag, has_rotation, has_friction;
-    double           ice_density;   /* [kg/m3] of woken floes */
+    bool             has_wind, has_deflection, has_spin_drag, has_added_mass;
+    double           ice_density, water_density; /* [kg/m3] of woken floes and what they swim in */
     double           drag_per_area; /* 1/2 rho_w Cf [kg/m3]: times D h gives fw_body.drag; 0 without drag */
+    double           skin_drag;     /* Cs [-] on the face; 0 without */
+    fw_wind          wind;          /* coefficients; with has_wind */
+    double           wake_radius, wake_upstream; /* ice nearer to the structure's centre, or to its line within this way upstream, is awake [m]; 0: when touched */
     /* numerics */
     bool             is_lone_exact; /* a lone floe on the structure by closed forms (lone.h) instead of the method */
     const fw_method *method;
@@ -57,12 +69,20 @@ void      fw_kernel_destroy(fw_kernel *k);
  * fw_kernel_needs_ice. Errors: FW_E_NUMERIC (non-finite state, floe inside the structure, step
  * limit) naming floe and time; FW_E_LIMIT; FW_E_NOMEM. */
 fw_status fw_kernel_step(fw_kernel *k, fw_world *w, fw_wear *wear, double t_end, fw_msg *m);
+/* The flow is another from w->t on, where the last step ended at its t_end. */
+void      fw_kernel_turn(fw_kernel *k, fw_world *w, const fw_flow *flow);
 /* The instant that the kernel has come to, also within a step that failed. */
 double    fw_kernel_now(const fw_kernel *k, const fw_world *w);
-/* Untouched ice that the next step wants in the world: from x on, for y from low to high (kernel frame [m]). */
-void      fw_kernel_needs_ice(const fw_kernel *k, const fw_world *w, double *from, double *low, double *high);
+/* Untouched ice that the next step wants in the world (kernel frame [m]). */
+typedef struct fw_box {
+    double x0, x1, y0, y1;
+} fw_box;
+fw_box    fw_kernel_needs_ice(const fw_kernel *k, const fw_world *w);
+/* A floe that no longer moves against the ice around it: velocity through the water where the air's drag and the water's balance. */
+void      fw_kernel_free_drift(const fw_setup *s, const fw_body *b, double x, double y, double *vx, double *vy);
 
-/* An ice floe: its mass [kg], and a body at rest in the origin with all that follows from its size. */
+/* An ice floe: the mass that its velocity moves [kg], added mass included, and a body at rest in the origin with all that follows from its
+ * size. */
 double  fw_kernel_floe_mass(const fw_setup *s, double radius, double thickness);
 fw_body fw_kernel_floe(const fw_setup *s, double radius, double thickness);
 

@@ -2,6 +2,8 @@
 #include "kernel/inside.h"
 
 #include "base/memory.h"
+#include "kernel/forces.h"
+#include "kernel/strip.h"
 #include "kernel/wake.h"
 #include "kernel/watch.h"
 
@@ -10,23 +12,49 @@ static fw_status wake_before_structure(fw_kernel *k, fw_msg *m)
 {
     fw_traffic *t = &k->traffic;
     fw_world   *w = t->world;
-    double      dt = t->until - t->now, X = -w->drift, u = t->setup.speed;
+    double      dt = t->until - t->now, X = -w->drift_x, Y = -w->drift_y;
+    fw_strip    strip = fw_strip_of(&t->setup, w);
+    double      u = strip.cx * t->setup.flow.ice_x + strip.cy * t->setup.flow.ice_y, way = u * dt;
     for (size_t q = 0; q < w->n_blocks; q++) {
         fw_block *b = &w->blocks[q];
-        double    reach = t->setup.structure_radius + b->max_radius + 0.5 * u * dt, cx = X - 0.5 * u * dt;
+        double    reach = t->setup.structure_radius + b->max_radius + 0.5 * way;
+        double    cx = X - 0.5 * way * strip.cx, cy = Y - 0.5 * way * strip.cy;
         if (b->n_left == 0 || cx + reach < b->x_min || cx - reach > b->x_max) continue;
         size_t ix0, ix1, iy0, iy1;
-        fw_cells_range(&b->cells, cx, 0, reach, &ix0, &ix1, &iy0, &iy1);
+        fw_cells_range(&b->cells, cx, cy, reach, &ix0, &ix1, &iy0, &iy1);
         for (size_t iy = iy0; iy < iy1 && ix0 < ix1; iy++)
             for (size_t i = b->cells.start[iy * b->cells.nx + ix0]; i < b->cells.start[iy * b->cells.nx + ix1]; i++) {
                 size_t r = b->cells.item[i];
-                double dx = b->x[r] - X, limit = t->setup.structure_radius + b->radius[r];
-                if (b->is_taken[r] || fabs(b->y[r]) > limit || dx > limit || dx < -limit - u * dt ||
-                    fabs(b->y[r]) > t->setup.half_width)
+                double px = b->x[r] - X, py = b->y[r] - Y, limit = t->setup.structure_radius + b->radius[r];
+                double along = strip.cx * px + strip.cy * py;
+                if (b->is_taken[r] || fabs(strip.cx * py - strip.cy * px) > limit || along > limit || along < -limit - way ||
+                    !fw_strip_has(&strip, b->x[r], b->y[r]))
                     continue;
                 FW_TRY(fw_wake(&t->setup, w, q, r, m));
             }
     }
+    return FW_OK;
+}
+
+/* Where ice that nothing has touched does not just drift along (floes drift apart in the wind, the water gives way before the structure) it is
+ * awake, as far as that matters. */
+static fw_status wake_around(fw_kernel *k, fw_msg *m)
+{
+    fw_traffic *t = &k->traffic;
+    fw_world   *w = t->world;
+    fw_strip    strip = fw_strip_of(&t->setup, w);
+    double      u = strip.cx * t->setup.flow.ice_x + strip.cy * t->setup.flow.ice_y, way = u * (t->until - t->now);
+    double      radius = t->setup.wake_radius > 0 ? t->setup.wake_radius + way : 0;
+    double      upstream = t->setup.wake_upstream > 0 ? t->setup.wake_upstream + way : 0;
+    for (size_t q = 0; q < w->n_blocks; q++)
+        for (size_t r = 0; r < w->blocks[q].n && w->blocks[q].n_left; r++) {
+            const fw_block *b = &w->blocks[q];
+            if (b->is_taken[r] || !fw_strip_has(&strip, b->x[r], b->y[r])) continue;
+            double px = b->x[r] + w->drift_x, py = b->y[r] + w->drift_y, along = strip.cx * px + strip.cy * py;
+            bool   is_near = px * px + py * py < radius * radius || (along > -upstream && upstream > 0);
+            if (!is_near || along > t->setup.downstream) continue;
+            FW_TRY(fw_wake(&t->setup, w, q, r, m));
+        }
     return FW_OK;
 }
 
@@ -56,7 +84,8 @@ static bool is_past(const fw_kernel *k, int32_t i)
         fw_path p = fw_path_of_flying(&k->traffic.setup, b);
         at = fw_path_at(&p, k->traffic.now);
     }
-    return at.x > k->traffic.setup.downstream && fw_length(at.x, at.y) > k->traffic.setup.structure_radius + b->radius;
+    fw_strip strip = fw_strip_of(&k->traffic.setup, k->traffic.world);
+    return strip.cx * at.x + strip.cy * at.y > k->traffic.setup.downstream && fw_length(at.x, at.y) > k->traffic.setup.structure_radius + b->radius;
 }
 
 /* Members that are gone leave the cluster, with their contacts. */
@@ -156,8 +185,12 @@ fw_status fw_listing_make(fw_kernel *k, double t_end, fw_msg *m)
     for (size_t i = 0; i < w->n_bodies; i++) FW_TRY(fw_watch_body(&t->setup, &w->bodies[i], m));
     FW_TRY(forget(k, m));
     FW_TRY(wake_before_structure(k, m));
+    if (t->setup.wake_radius > 0 || t->setup.wake_upstream > 0) FW_TRY(wake_around(k, m));
     FW_TRY(fw_grow(&t->seats, &t->seat_capacity, w->n_bodies + 1, sizeof *t->seats, "candidates", m));
-    for (; k->n_seated < w->n_bodies; k->n_seated++) t->seats[k->n_seated] = (fw_seat){.first = -1};
+    for (; k->n_seated < w->n_bodies; k->n_seated++) {
+        t->seats[k->n_seated] = (fw_seat){.first = -1};
+        if (!fw_has_flight(&t->setup)) FW_TRY(fw_flock_alone(k, (int32_t)k->n_seated, m));
+    }
     for (size_t q = 0; q < k->n_clusters; q++) {
         fw_cluster *c = k->clusters[q];
         if (c->t1 == c->t0) FW_TRY(fw_cluster_try(c, &t->books, fw_event_step_limit(k, c, t_end), m));

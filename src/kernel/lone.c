@@ -6,6 +6,7 @@
  *     d'' + (c/m) d' + (k/m) d = g(t)              g = -v^2/r - Fn/m       while pressed, else  d'' = g
  *     s' = Ft/m_s + f(t)                           f = Fw/m + u v/r        1/m_s = 1/m + R^2/I
  *     p' = (1 - a) f(t),  p = v - a s              a = m_s/m: friction cannot change p
+ *     (water that slows spin by w' = -q/R takes q from f and gives it to p' once more)
  *     angle' = v/r
  *
  * Fn, Fw: drag outward and along the wall; N = k d + c u. Friction, one of three:
@@ -97,14 +98,17 @@ static void solve(fw_lone *L)
 
 /* Angle' = p/r + a s/r, and s may have decayed within a tenth of the step: with S its integral a s/r = (a S/r)' - a S u/r^2, so
  * orbit = p/r - a S u/r^2 is slow again. */
-static inline void force(const fw_lone *L, double speed, double per_mass, const fw_lone_state *y, double *push,
-                         double *drive, double *orbit)
+static inline void force(const fw_lone *L, const fw_setup *set, const fw_member *m, const fw_lone_state *y, double *push,
+                         double *drive, double *orbit, double *twist)
 {
     double nx, ny, out, along, inv = y->per_reach, w = y->along * inv;
     normal_at(L, y->turn, &nx, &ny);
-    drag_at(speed, per_mass, nx, ny, y, &out, &along);
+    drag_at(set, m, nx, ny, y, &out, &along);
     *push = -y->along * w - out, *drive = along + y->rate * w;
     *orbit = inv * (y->along - L->share * (y->slip + y->rate * y->slid * inv));
+    if (!L->has_twist) return;
+    *twist = spin_drag_at(set, m, nx, ny, y);
+    *drive -= *twist;
 }
 
 /* The parabola through values at the start, the middle and the end. */
@@ -142,6 +146,7 @@ static void start(fw_lone *L, const fw_cluster *c, const fw_setup *set)
     L->carried = o->along - L->share * o->slip;
     L->half_damping = 0.5 * p->law.c * m->own_inv_mass, L->omega2 = p->law.k * m->own_inv_mass;
     L->split = L->half_damping * L->half_damping - L->omega2;
+    L->has_twist = set->has_spin_drag && m->inertia > 0;
     L->relaxation = p->law.ct * w_slip, L->per_relaxation = 1 / L->relaxation, L->kick = p->mu / L->share;
 }
 
@@ -214,7 +219,7 @@ static void begin(fw_cluster *c, const fw_books *b)
     const fw_member *m = &c->members[0];
     fw_lone         *L = &c->lone;
     start(L, c, b->setup);
-    force(L, b->setup->speed, m->drag_per_mass, &L->from, &L->by.push[0], &L->by.drive[0], &L->by.orbit[0]);
+    force(L, b->setup, m, &L->from, &L->by.push[0], &L->by.drive[0], &L->by.orbit[0], &L->by.twist[0]);
     b->world->ledger.force_evaluations++;
     choose(L, &c->pairs[0], m->own_inv_mass, b->setup->velocity_scale);
 }
@@ -228,11 +233,12 @@ static double attempt(fw_cluster *c, const fw_books *b, double h, double *event)
     fw_lone         *L = &c->lone;
     fw_lone_state    at[3], last;
     double           enough = SWEPT * OF_VELOCITY * set->tolerance * set->velocity_scale;
-    double           g[3] = {L->by.push[0]}, f[3] = {L->by.drive[0]}, o[3] = {L->by.orbit[0]};
+    double           g[3] = {L->by.push[0]}, f[3] = {L->by.drive[0]}, o[3] = {L->by.orbit[0]}, q[3] = {L->by.twist[0]};
     L->span = h, L->per_span = 1 / h;
     expect(L, L->before.push, L->by.push);
     expect(L, L->before.drive, L->by.drive);
     expect(L, L->before.orbit, L->by.orbit);
+    if (L->has_twist) expect(L, L->before.twist, L->by.twist);
     L->is_short = fw_larger(p->law.omega, 2 * L->half_damping) * h < SHORT;
     L->is_short_slip = L->relaxation * h < SHORT;
     decay middle = decay_at(L, 0.5 * h), end = later(L, middle, middle);
@@ -241,11 +247,12 @@ static double attempt(fw_cluster *c, const fw_books *b, double h, double *event)
     state_at(L, &p->law, h, end, &at[2]);
     for (int n = 0; n < MAX_SWEEPS; n++) {
         state_at(L, &p->law, 0.5 * h, middle, &at[1]);
-        for (int j = 1; j < 3; j++) force(L, set->speed, m->drag_per_mass, &at[j], &g[j], &f[j], &o[j]);
+        for (int j = 1; j < 3; j++) force(L, set, m, &at[j], &g[j], &f[j], &o[j], &q[j]);
         b->world->ledger.force_evaluations += 2;
         through(g, L->by.push);
         through(f, L->by.drive);
         through(o, L->by.orbit);
+        if (L->has_twist) through(q, L->by.twist);
         solve(L);
         last = at[2];
         state_at(L, &p->law, h, end, &at[2]);
@@ -280,7 +287,7 @@ static void finish(fw_cluster *c, const fw_books *b, double length)
     m->y1[FW_X] = y.reach * nx, m->y1[FW_Y] = y.reach * ny, m->y1[2] = m->y1[3] = 0;
     m->y1[FW_VX] = -y.rate * nx - y.along * ny, m->y1[FW_VY] = -y.rate * ny + y.along * nx;
     m->y1[FW_SPIN] = m->inertia > 0 ? (y.along - y.slip) / m->radius : m->y0[FW_SPIN], m->y1[7] = 0;
-    m->fastest = fw_member_fastest(m, b->setup->speed, 1 / length);
+    m->fastest = fw_member_fastest(m, &b->setup->flow, 1 / length);
     p->depth[0] = L->from.depth, p->rate[0] = L->from.rate, p->slip[0] = L->from.slip;
     p->depth[last] = y.depth, p->rate[last] = y.rate, p->slip[last] = y.slip;
     p->normal[0] = L->presses ? fw_larger(0, L->from.normal) : 0;
@@ -304,7 +311,7 @@ fw_status fw_lone_try(fw_cluster *c, const fw_books *b, double limit, fw_msg *ms
     if (follows)
         L->before = L->by, L->before_span = L->span, L->before_end = L->length * L->per_span;
     else
-        L->before = (fw_lone_forcing){{0}, {0}, {0}}, L->before_span = L->before_end = 0;
+        L->before = (fw_lone_forcing){{0}, {0}, {0}, {0}}, L->before_span = L->before_end = 0;
     begin(c, b);
     if (!(c->h < INFINITY) || p->since_touch == 0) c->h = FIRST_STEP / omega;
     c->h = fw_smaller(c->h, set->max_step / set->velocity_scale);

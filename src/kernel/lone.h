@@ -24,6 +24,7 @@ typedef struct fw_lone_state {
 /* Slow forcing as parabolas in t / span. */
 typedef struct fw_lone_forcing {
     double push[3], drive[3], orbit[3]; /* g and f [m/s2], Omega [rad/s]: see lone.c */
+    double twist[3];                    /* R w' by the water on spin [m/s2] */
 } fw_lone_forcing;
 
 /* A tried step: what holds from its start on, and the forcing. Enough to say where the floe is at any time in it. */
@@ -31,6 +32,7 @@ typedef struct fw_lone {
     double        t1;                      /* where the step ends */
     double        span, per_span, length;  /* [s] the forcing is fitted over span; the step ends after length <= span */
     bool          presses, rubs;           /* is there a force; can there be friction */
+    bool          has_twist;               /* water slows spin */
     double        slides;                  /* sign of a slip at Coulomb's cap; 0: friction is viscous */
     bool          is_short, is_short_slip; /* power series instead of closed forms */
     double        nx, ny;                  /* normal at the start */

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "kernel/cluster.h"
+#include "kernel/forces.h"
 
 /* What decays since the step's start: e^(-t c/2m) times cosh(bt) and sinh(bt)/b, b^2 = split (any sign), and e^(-qt). */
 typedef struct decay {
@@ -96,6 +97,7 @@ static inline void state_at(const fw_lone *L, const fw_contact_constants *law, d
         }
     }
     y->along = L->carried + (1 - L->share) * driven + L->share * y->slip;
+    if (L->has_twist) y->along += h * integral(L->by.twist, x);
     y->reach = o->reach - (y->depth - o->depth);
     y->per_reach = 1 / y->reach;
     y->turn = h * integral(L->by.orbit, x) + L->share * y->slid * y->per_reach;
@@ -115,12 +117,27 @@ static inline void normal_at(const fw_lone *L, double turn, double *nx, double *
     *nx = L->nx * c - L->ny * s, *ny = L->nx * s + L->ny * c;
 }
 
-/* Drag per mass, outward and along the wall. */
-static inline void drag_at(double speed, double per_mass, double nx, double ny, const fw_lone_state *y, double *out,
+/* Drag of water and air per mass, outward and along the wall. */
+static inline void drag_at(const fw_setup *set, const fw_member *m, double nx, double ny, const fw_lone_state *y, double *out,
                            double *along)
 {
-    double wn = speed * nx + y->rate, wt = -speed * ny - y->along, rate = per_mass * sqrt(wn * wn + wt * wt);
+    double ux, uy;
+    fw_water_at(set, y->reach * nx, y->reach * ny, &ux, &uy);
+    double wn = ux * nx + uy * ny + y->rate, wt = uy * nx - ux * ny - y->along, rate = m->drag_per_mass * sqrt(wn * wn + wt * wt);
     *out = rate * wn, *along = rate * wt;
+    if (!set->has_wind) return;
+    double an = set->flow.wind_x * nx + set->flow.wind_y * ny + y->rate, at = set->flow.wind_y * nx - set->flow.wind_x * ny - y->along;
+    double air = m->air_per_mass * sqrt(an * an + at * at);
+    *out += air * an, *along += air * at;
+}
+
+/* The water slows spin: R w' by it, with R w = v - s. */
+static inline double spin_drag_at(const fw_setup *set, const fw_member *m, double nx, double ny, const fw_lone_state *y)
+{
+    double ux, uy;
+    fw_water_at(set, y->reach * nx, y->reach * ny, &ux, &uy);
+    double wn = ux * nx + uy * ny + y->rate, wt = uy * nx - ux * ny - y->along, rim = y->along - y->slip;
+    return -fw_skin_drag_torque_rate(m->spin_per_inertia, m->radius, sqrt(wn * wn + wt * wt), rim / m->radius) * rim;
 }
 
 /* lone_edges.c. May the force dip below zero and come back? A bound of its decaying part against the force at the start. */

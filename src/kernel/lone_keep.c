@@ -83,12 +83,14 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
         for (int j = 0; j < PIECE; j++) {
             double weight = WEIGHT[j] * dt;
             if (j > 0) deepest = fw_larger(deepest, fw_books_deepest(y[j - 1].depth, y[j - 1].rate, y[j].depth, y[j].rate, (AT[j] - AT[j - 1]) * dt));
-            if (m->drag_per_mass > 0) {
+            if (m->drag_per_mass + m->air_per_mass > 0) {
                 double nx, ny, out, along;
                 normal_at(L, y[j].turn, &nx, &ny);
-                drag_at(set->speed, m->drag_per_mass, nx, ny, &y[j], &out, &along);
+                drag_at(set, m, nx, ny, &y[j], &out, &along);
                 drag_work += weight * (along * y[j].along - out * y[j].rate);
                 jx += weight * (out * nx - along * ny), jy += weight * (out * ny + along * nx);
+                if (L->has_twist) /* I w w' over the mass */
+                    drag_work += weight * m->inertia * m->own_inv_mass / (m->radius * m->radius) * (y[j].along - y[j].slip) * spin_drag_at(set, m, nx, ny, &y[j]);
             }
             if (!L->presses) continue;
             double normal = fw_larger(0, y[j].normal);

@@ -19,7 +19,7 @@ typedef struct fw_neighbours {
     fw_sleeper_near *sleepers;
     size_t           n_sleepers, sleeper_capacity;
     fw_cells         cells;
-    double           drift_listed;  /* of the world when listed */
+    double           drift_listed[2]; /* of the world when listed */
     uint64_t         blocks_listed; /* the world's block_changes then */
     bool             is_valid;
 } fw_neighbours;

@@ -3,22 +3,32 @@
 #include <float.h>
 #include <math.h>
 
+#include "effects/skin_drag.h"
 #include "physics/drag.h"
 
 fw_path fw_path_of_structure(const fw_setup *s)
 {
-    return (fw_path){.kind = FW_PATH_STANDS, .radius = s->structure_radius, .speed = s->speed, .bound = s->speed};
+    return (fw_path){.kind = FW_PATH_STANDS, .radius = s->structure_radius, .ux = s->flow.ux, .uy = s->flow.uy, .bound = fw_length(s->flow.ux, s->flow.uy)};
 }
 
 fw_path fw_path_of_drifting(const fw_setup *s, double t0, double x, double y, double radius)
 {
-    return (fw_path){
-        .kind = FW_PATH_DRIFTS, .radius = radius, .t0 = t0, .x = x, .y = y, .vx = s->speed, .speed = s->speed};
+    const fw_flow *f = &s->flow;
+    return (fw_path){.kind = FW_PATH_DRIFTS,
+                     .radius = radius,
+                     .t0 = t0,
+                     .x = x,
+                     .y = y,
+                     .vx = f->ice_x,
+                     .vy = f->ice_y,
+                     .ux = f->ux,
+                     .uy = f->uy,
+                     .bound = fw_length(f->ice_x - f->ux, f->ice_y - f->uy)};
 }
 
 fw_path fw_path_of_flying(const fw_setup *s, const fw_body *b)
 {
-    double r = fw_length(b->vx - s->speed, b->vy);
+    double r = fw_length(b->vx - s->flow.ux, b->vy - s->flow.uy);
     return (fw_path){.kind = r > 0 ? FW_PATH_FLIES : FW_PATH_DRIFTS,
                      .radius = b->radius,
                      .t0 = b->t,
@@ -26,7 +36,8 @@ fw_path fw_path_of_flying(const fw_setup *s, const fw_body *b)
                      .y = b->y,
                      .vx = b->vx,
                      .vy = b->vy,
-                     .speed = s->speed,
+                     .ux = s->flow.ux,
+                     .uy = s->flow.uy,
                      .K = b->drag * b->inv_mass,
                      .r = r,
                      .bound = r};
@@ -41,7 +52,8 @@ fw_path fw_path_of_member(const fw_setup *s, const fw_cluster *c, const fw_membe
                      .y = m->y0[FW_Y],
                      .vx = m->y0[FW_VX],
                      .vy = m->y0[FW_VY],
-                     .speed = s->speed,
+                     .ux = s->flow.ux,
+                     .uy = s->flow.uy,
                      .h = c->t1 - c->t0,
                      .x1 = m->y1[FW_X],
                      .y1 = m->y1[FW_Y],
@@ -64,13 +76,13 @@ fw_place fw_path_at(const fw_path *p, double t)
     if (dt == 0) return (fw_place){p->x, p->y, p->vx, p->vy};
     switch (p->kind) {
     case FW_PATH_STANDS: return (fw_place){p->x, p->y, 0, 0};
-    case FW_PATH_DRIFTS: return (fw_place){p->x + p->vx * dt, p->y, p->vx, 0};
+    case FW_PATH_DRIFTS: return (fw_place){p->x + p->vx * dt, p->y + p->vy * dt, p->vx, p->vy};
     case FW_PATH_FLIES: {
         if (!(p->K > 0)) return (fw_place){p->x + p->vx * dt, p->y + p->vy * dt, p->vx, p->vy};
         fw_drag_flow f = fw_drag_free(p->K, p->r, dt);
-        double       per_r = 1 / p->r, rx = (p->vx - p->speed) * per_r, ry = p->vy * per_r;
-        return (fw_place){p->x + p->speed * dt + rx * f.distance, p->y + ry * f.distance, p->speed + rx * f.speed,
-                          ry * f.speed};
+        double       per_r = 1 / p->r, rx = (p->vx - p->ux) * per_r, ry = (p->vy - p->uy) * per_r;
+        return (fw_place){p->x + p->ux * dt + rx * f.distance, p->y + p->uy * dt + ry * f.distance, p->ux + rx * f.speed,
+                          p->uy + ry * f.speed};
     }
     case FW_PATH_CUBIC: break;
     }
@@ -80,6 +92,24 @@ fw_place fw_path_at(const fw_path *p, double t)
     cubic(p->x, p->vx, p->x1, p->vx1, p->h, dt / p->h, &at.x, &at.vx);
     cubic(p->y, p->vy, p->y1, p->vy1, p->h, dt / p->h, &at.y, &at.vy);
     return at;
+}
+
+double fw_flight_spin(const fw_body *b, double r, double K, double t)
+{
+    /* dw/dt = -q w sqrt((3 V / 4)^2 + (2 R w / 5)^2), q = coefficient R^2 / I, V = r / (1 + K r t): ln w is smooth. Classical fourth
+     * order, in steps within which neither V nor w changes by more than a tenth. */
+    double q = b->spin_drag * b->inv_inertia, w = b->spin, done = 0;
+    while (done < t) {
+        double V = r / (1 + K * r * done), rate = fw_skin_drag_torque_rate(q, b->radius, V, w), h = fw_smaller(t - done, 0.1 / (rate + K * V + 1e-300));
+        double k[4], at[4] = {0, 0.5 * h, 0.5 * h, h};
+        for (int j = 0; j < 4; j++) { /* d ln w / dt */
+            double now = w * exp(j ? k[j - 1] * at[j] : 0);
+            k[j] = -fw_skin_drag_torque_rate(q, b->radius, r / (1 + K * r * (done + at[j])), now);
+        }
+        w *= exp(h / 6 * (k[0] + 2 * k[1] + 2 * k[2] + k[3]));
+        done = t - done <= h ? t : done + h;
+    }
+    return w;
 }
 
 void fw_path_gap(const fw_path *a, const fw_path *b, double t, double *gap, double *closing)

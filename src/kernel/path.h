@@ -15,7 +15,7 @@ typedef struct fw_path {
     enum { FW_PATH_STANDS, FW_PATH_DRIFTS, FW_PATH_FLIES, FW_PATH_CUBIC } kind;
     double radius;
     double t0, x, y, vx, vy;    /* at t0 */
-    double speed;               /* of the water along +x */
+    double ux, uy;              /* of the water */
     double K;                   /* flies: drag per mass [1/m] */
     double r;                   /* flies: |v - u| at t0 */
     double h, x1, y1, vx1, vy1; /* cubic: at t0 + h */
@@ -28,6 +28,9 @@ fw_path fw_path_of_flying(const fw_setup *s, const fw_body *b);
 fw_path fw_path_of_member(const fw_setup *s, const fw_cluster *c, const fw_member *m);
 
 fw_place fw_path_at(const fw_path *p, double t);
+
+/* Spin after a flight of t seconds that began at |v - u| = r [rad/s]: the water on the face slows it, the faster the floe goes through it. */
+double fw_flight_spin(const fw_body *b, double r, double K, double t);
 
 /* Gap between the rims (positive: apart) and how fast it closes. */
 void fw_path_gap(const fw_path *a, const fw_path *b, double t, double *gap, double *closing);

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "kernel/plain_inside.h"
+#include "kernel/strip.h"
 #include "kernel/wake.h"
 
 fw_status fw_plain_create(fw_plain **out, const fw_setup *setup, const fw_numerics *numerics, double inlet, fw_msg *m)
@@ -41,11 +42,12 @@ double fw_plain_needs_ice_from(const fw_plain *p, const fw_world *w)
 
 static fw_status wake_all(fw_plain *p, fw_world *w, fw_msg *m)
 {
+    fw_strip strip = fw_strip_of(&p->setup, w);
     for (size_t k = 0; k < w->n_blocks; k++) {
         fw_block *b = &w->blocks[k];
         if (b->n_left == 0) continue;
         for (size_t i = 0; i < b->n; i++) {
-            if (b->is_taken[i] || b->x[i] + w->drift < p->inlet || fabs(b->y[i]) > p->setup.half_width) continue;
+            if (b->is_taken[i] || b->x[i] + w->drift_x < p->inlet || !fw_strip_has(&strip, b->x[i], b->y[i])) continue;
             FW_TRY(fw_wake(&p->setup, w, k, i, m));
             w->bodies[w->n_bodies - 1].is_touched = true; /* so that pairs of it are listed and stepped */
         }
@@ -72,7 +74,7 @@ static fw_status list(fw_plain *p, fw_world *w, fw_msg *m)
     for (size_t q = 0; q < p->neighbours.n_near; q++) {
         fw_near n = p->neighbours.near[q];
         double  inv = w->bodies[n.i].inv_mass + (n.j == FW_WALL ? 0 : w->bodies[n.j].inv_mass);
-        p->law[q] = fw_contact_law_apply(&p->setup.contact, 1 / inv);
+        p->law[q] = fw_contact_law_apply(n.j == FW_WALL ? &p->setup.contact : &p->setup.floe_contact, 1 / inv);
         if (n.j == FW_WALL) n_walls++;
     }
     FW_TRY(fw_grow(&p->near_wall, &p->near_wall_capacity, n_walls + 1, sizeof *p->near_wall, "plain kernel", m));

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "geometry/ring.h"
+#include "kernel/forces.h"
 #include "kernel/plain_inside.h"
 
 /* rate at one instant times dt: the naive sum, through the same ring whatever the rule */
@@ -30,8 +31,15 @@ static inline void forces(fw_plain *p, fw_world *w, fw_wear *wear, double weight
     double         *f = p->force;
     for (size_t i = 0; i < w->n_bodies; i++) {
         const fw_body *b = &w->bodies[i];
-        double         rx = s->speed - b->vx, ry = -b->vy, drag = b->drag * sqrt(rx * rx + ry * ry);
+        double         ux, uy;
+        fw_water_at(s, b->x, b->y, &ux, &uy);
+        double rx = ux - b->vx, ry = uy - b->vy, speed = sqrt(rx * rx + ry * ry), drag = b->drag * speed;
         f[3 * i] = drag * rx, f[3 * i + 1] = drag * ry, f[3 * i + 2] = 0;
+        if (s->has_wind) {
+            double air = fw_wind_rate(s, b->air, b->vx, b->vy);
+            f[3 * i] += air * (s->flow.wind_x - b->vx), f[3 * i + 1] += air * (s->flow.wind_y - b->vy);
+        }
+        if (s->has_spin_drag) f[3 * i + 2] = -fw_skin_drag_torque_rate(b->spin_drag, b->radius, speed, b->spin) * b->spin;
     }
     for (size_t q = 0; q < p->neighbours.n_near; q++) {
         fw_near          e = p->neighbours.near[q];
@@ -137,6 +145,6 @@ void fw_plain_advance(fw_plain *p, fw_world *w, fw_wear *wear, double dt)
         fw_plain_watch(p, w);
     }
     w->t += dt;
-    w->drift += p->setup.speed * dt;
+    w->drift_x += p->setup.flow.ice_x * dt, w->drift_y += p->setup.flow.ice_y * dt;
     w->ledger.steps++;
 }

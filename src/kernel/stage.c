@@ -7,13 +7,14 @@
 #include <math.h>
 
 #include "kernel/cluster.h"
+#include "kernel/forces.h"
 
 enum { MAX_SWEEPS = 400 };
 
-static inline double relative_speed(const fw_setup *s, double vx, double vy)
+static inline double relative_speed(const fw_member *m, double vx, double vy)
 {
-    double rx = s->speed - vx;
-    return sqrt(rx * rx + vy * vy);
+    double rx = m->ux - vx, ry = m->uy - vy;
+    return sqrt(rx * rx + ry * ry);
 }
 
 /* Normal and overlap of two discs whose centres are (dx, dy) apart. */
@@ -63,10 +64,16 @@ void fw_stage_start(fw_cluster *c, const fw_books *books)
     for (size_t i = 0; i < c->n_members; i++) {
         fw_member    *m = &c->members[i];
         const double *v = m->y0 + FW_VX;
-        double        rate = m->drag_per_mass * relative_speed(set, v[0], v[1]);
-        m->drag[0][0] = rate * (set->speed - v[0]), m->drag[0][1] = -rate * v[1];
+        fw_water_at(set, m->y0[FW_X], m->y0[FW_Y], &m->ux, &m->uy);
+        double        speed = relative_speed(m, v[0], v[1]), rate = m->drag_per_mass * speed;
+        m->drag[0][0] = rate * (m->ux - v[0]), m->drag[0][1] = rate * (m->uy - v[1]), m->drag[0][2] = 0;
+        if (set->has_wind) {
+            double air = fw_wind_rate(set, m->air_per_mass, v[0], v[1]);
+            m->drag[0][0] += air * (set->flow.wind_x - v[0]), m->drag[0][1] += air * (set->flow.wind_y - v[1]);
+        }
+        if (set->has_spin_drag) m->drag[0][2] = -fw_skin_drag_torque_rate(m->spin_per_inertia, m->radius, speed, v[2]) * v[2];
         for (int q = 0; q < 4; q++) m->k[0][q] = v[q];
-        m->k[0][FW_VX] = m->drag[0][0], m->k[0][FW_VY] = m->drag[0][1], m->k[0][FW_SPIN] = 0;
+        for (int q = 0; q < 3; q++) m->k[0][FW_VX + q] = m->drag[0][q];
     }
     for (size_t k = 0; k < c->n_pairs; k++) {
         fw_pair      *p = &c->pairs[k];
@@ -86,14 +93,21 @@ void fw_stage_start(fw_cluster *c, const fw_books *books)
     books->world->ledger.force_evaluations += (double)c->n_pairs;
 }
 
-/* Velocity without contact impulses, drag implicit with a given |u - v|: V = (vr + hg K u) / (1 + hg K). */
+/* resistance x V without contact impulses */
+static inline void known_part(const fw_setup *set, const fw_member *m, double hg, double *x, double *y)
+{
+    *x = m->r[FW_VX] + hg * m->drag_rate * m->ux, *y = m->r[FW_VY] + hg * m->drag_rate * m->uy;
+    if (set->has_wind) *x += hg * m->air_rate * set->flow.wind_x, *y += hg * m->air_rate * set->flow.wind_y;
+}
+
+/* Velocity without contact impulses, drag implicit with a given |u - v|: V = (vr + hg K u) / (1 + hg K); with wind likewise of both. */
 static inline void free_velocity(const fw_setup *set, fw_member *m, double hg, double speed)
 {
     m->drag_rate = m->drag_per_mass * speed, m->drag_speed = speed;
-    m->resistance = 1 + hg * m->drag_rate;
-    double f = 1 / m->resistance;
-    m->V[0] = (m->r[FW_VX] + hg * m->drag_rate * set->speed) * f;
-    m->V[1] = m->r[FW_VY] * f;
+    m->resistance = 1 + hg * (set->has_wind ? m->drag_rate + m->air_rate : m->drag_rate);
+    double f = 1 / m->resistance, x, y;
+    known_part(set, m, hg, &x, &y);
+    m->V[0] = x * f, m->V[1] = y * f;
     m->ease = f;
     m->inv_mass = m->own_inv_mass * f;
 }
@@ -112,8 +126,15 @@ static inline __attribute__((always_inline)) void predict_stage(fw_cluster *c, c
         for (int q = 0; q < 8; q++) m->r[q] = r[q];
         for (int q = 0; q < 4; q++) m->U[q] = m->k[s - 1][q] + ahead * m->k[s - 1][4 + q];
         m->X = r[FW_X] + hg * m->U[0], m->Y = r[FW_Y] + hg * m->U[1];
-        free_velocity(set, m, hg, relative_speed(set, m->U[0], m->U[1]));
+        fw_water_at(set, m->X, m->Y, &m->ux, &m->uy);
+        double speed = relative_speed(m, m->U[0], m->U[1]);
+        if (set->has_wind) m->air_rate = fw_wind_rate(set, m->air_per_mass, m->U[0], m->U[1]);
+        free_velocity(set, m, hg, speed);
         m->V[2] = r[FW_SPIN];
+        if (!set->has_spin_drag) continue;
+        /* at the predicted state: slow, and third order all the same */
+        m->spin_slows = -fw_skin_drag_torque_rate(m->spin_per_inertia, m->radius, speed, m->U[2]) * m->U[2];
+        m->V[2] += hg * m->spin_slows;
     }
 }
 
@@ -192,12 +213,13 @@ static double renew_drag(fw_cluster *c, const fw_setup *set, double hg, double e
     double largest = 0;
     for (size_t i = 0; i < c->n_members; i++) {
         fw_member *m = &c->members[i];
-        double     rx = set->speed - m->V[0], r2 = rx * rx + m->V[1] * m->V[1], was = m->drag_speed;
+        double     rx = m->ux - m->V[0], ry = m->uy - m->V[1], r2 = rx * rx + ry * ry, was = m->drag_speed;
         /* what the new drag would change, to first order: most floes need no renewal. |r^2 - s^2| / 2 = |r - s| r or so. */
         double change = 0.5 * hg * m->drag_per_mass * fabs(r2 - was * was) * m->ease;
         if (!(change > enough)) continue;
-        double jx = m->V[0] * m->resistance - (m->r[FW_VX] + hg * m->drag_rate * set->speed),
-               jy = m->V[1] * m->resistance - m->r[FW_VY];
+        double x, y;
+        known_part(set, m, hg, &x, &y);
+        double jx = m->V[0] * m->resistance - x, jy = m->V[1] * m->resistance - y; /* what the impulses gave */
         free_velocity(set, m, hg, sqrt(r2));
         m->V[0] += jx * m->ease, m->V[1] += jy * m->ease;
         largest = fw_larger(largest, change);
@@ -235,7 +257,10 @@ bool fw_stage_solve(fw_cluster *c, const fw_books *books, size_t s, double h)
     for (size_t i = 0; i < c->n_members; i++) {
         fw_member *m = &c->members[i];
         for (int q = 0; q < 4; q++) m->k[s][q] = m->V[q], m->k[s][4 + q] = (m->V[q] - m->r[4 + q]) * inv;
-        m->drag[s][0] = m->drag_rate * (set->speed - m->V[0]), m->drag[s][1] = -m->drag_rate * m->V[1];
+        m->drag[s][0] = m->drag_rate * (m->ux - m->V[0]), m->drag[s][1] = m->drag_rate * (m->uy - m->V[1]);
+        if (set->has_wind)
+            m->drag[s][0] += m->air_rate * (set->flow.wind_x - m->V[0]), m->drag[s][1] += m->air_rate * (set->flow.wind_y - m->V[1]);
+        if (set->has_spin_drag) m->drag[s][2] = m->spin_slows;
     }
     for (size_t k = 0; k < c->n_pairs; k++) {
         fw_pair *p = &c->pairs[k];

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "kernel/strip.h"
 
 void fw_traffic_free(fw_traffic *t)
 {
@@ -25,7 +26,7 @@ fw_path fw_traffic_path_of_other(const fw_traffic *t, const fw_candidate *c)
     if (c->j >= 0) return fw_traffic_path(t, c->j);
     if (c->j == FW_WALL) return fw_path_of_structure(&t->setup);
     const fw_block *b = &t->world->blocks[c->block];
-    return fw_path_of_drifting(&t->setup, t->world->t, b->x[c->row] + t->world->drift, b->y[c->row], b->radius[c->row]);
+    return fw_path_of_drifting(&t->setup, t->world->t, b->x[c->row] + t->world->drift_x, b->y[c->row] + t->world->drift_y, b->radius[c->row]);
 }
 
 /* --- lines ---------------------------------------------------------------------------------------------------------- */
@@ -42,8 +43,8 @@ static void draw_line(fw_traffic *t, int32_t i)
     s->margin = t->setup.margin, s->reach = p.radius + s->margin;
     if (p.kind != FW_PATH_FLIES || !(dt > 0)) return;
     fw_place end = fw_path_at(&p, t->until);
-    double   r = fw_length(at.vx - p.speed, at.vy), r_end = fw_length(end.vx - p.speed, end.vy);
-    double   mean = fw_length(end.x - at.x - p.speed * dt, end.y - at.y) / dt;
+    double   r = fw_length(at.vx - p.ux, at.vy - p.uy), r_end = fw_length(end.vx - p.ux, end.vy - p.uy);
+    double   mean = fw_length(end.x - at.x - p.ux * dt, end.y - at.y - p.uy * dt) / dt;
     s->vx = (end.x - at.x) / dt, s->vy = (end.y - at.y) / dt;
     /* The way against the water is concave in time: it stays below the tangents at both ends, which meet at this height above the chord. */
     s->margin = r > r_end ? fw_larger(0, (r - mean) * (mean - r_end) * dt / (r - r_end)) : 0;
@@ -135,8 +136,11 @@ static bool has_ice(const fw_traffic *t, int32_t i, int32_t block, int32_t row)
 static fw_status add_ice(fw_traffic *t, int32_t i, const disc *a, bool is_new, fw_msg *m)
 {
     const fw_world *w = t->world;
-    double dt = t->until - t->now, u = a->vx - t->setup.speed, X = a->x - (w->drift + t->setup.speed * (t->now - w->t));
-    double cx = X + 0.5 * u * dt, cy = a->y + 0.5 * a->vy * dt, half = 0.5 * dt * fw_larger(fabs(u), fabs(a->vy));
+    const fw_flow  *flow = &t->setup.flow;
+    double dt = t->until - t->now, u = a->vx - flow->ice_x, v = a->vy - flow->ice_y, gone = t->now - w->t;
+    double X = a->x - (w->drift_x + flow->ice_x * gone), Y = a->y - (w->drift_y + flow->ice_y * gone);
+    double cx = X + 0.5 * u * dt, cy = Y + 0.5 * v * dt, half = 0.5 * dt * fw_larger(fabs(u), fabs(v));
+    fw_strip strip = fw_strip_of(&t->setup, w);
     for (size_t k = 0; k < w->n_blocks; k++) {
         const fw_block *b = &w->blocks[k];
         double          reach = half + a->reach + b->max_radius;
@@ -150,12 +154,12 @@ static fw_status add_ice(fw_traffic *t, int32_t i, const disc *a, bool is_new, f
             for (size_t q = b->cells.start[iy * b->cells.nx + ix0]; q < b->cells.start[iy * b->cells.nx + ix1]; q++) {
                 size_t r = b->cells.item[q];
                 some[n] = (int32_t)r;
-                n += !b->is_taken[r] & (fabs(b->y[r]) <= t->setup.half_width) &
-                     is_in_box(X - b->x[r], a->y - b->y[r], u, a->vy, dt, a->reach + b->radius[r]);
+                n += !b->is_taken[r] & fw_strip_has(&strip, b->x[r], b->y[r]) &
+                     is_in_box(X - b->x[r], Y - b->y[r], u, v, dt, a->reach + b->radius[r]);
             }
         for (size_t q = 0; q < n; q++) {
             int32_t r = some[q];
-            if (is_near(X - b->x[r], a->y - b->y[r], u, a->vy, dt, a->reach + b->radius[r]) &&
+            if (is_near(X - b->x[r], Y - b->y[r], u, v, dt, a->reach + b->radius[r]) &&
                 (is_new || !has_ice(t, i, (int32_t)k, r)))
                 FW_TRY(add(t, i, FW_ICE, (int32_t)k, r, m));
         }
@@ -307,7 +311,7 @@ static double fastest(const fw_traffic *t, int32_t body)
     const fw_seat *s = &t->seats[body];
     if (s->cluster) return s->cluster->members[s->member].fastest;
     const fw_body *b = &t->world->bodies[body];
-    return fw_length(b->vx - t->setup.speed, b->vy);
+    return fw_length(b->vx - t->setup.flow.ux, b->vy - t->setup.flow.uy);
 }
 
 void fw_traffic_check(fw_traffic *t, int32_t c)
@@ -322,7 +326,11 @@ void fw_traffic_check(fw_traffic *t, int32_t c)
         is_swift |= other > t->swift;
         speed += other, bound += t->swift;
     } else if (e->j == FW_WALL) {
-        speed += t->setup.speed, bound += t->setup.speed;
+        double current = fw_length(t->setup.flow.ux, t->setup.flow.uy);
+        speed += current, bound += current;
+    } else {
+        double drift = fw_length(t->setup.flow.ice_x - t->setup.flow.ux, t->setup.flow.ice_y - t->setup.flow.uy);
+        speed += drift, bound += drift;
     }
     double touch = INFINITY;
     if (until > t->now && (is_swift || until > e->clear)) {

@@ -41,7 +41,7 @@ static int jump_of(const fw_pair *p, size_t last)
 
 bool fw_watch_step(const fw_cluster *c, const fw_setup *set, double h)
 {
-    if (h * c->omega < SHORTEST_WATCHED) return false;
+    if (h * c->omega < SHORTEST_WATCHED || c->n_pairs == 0) return false;
     if (is_energy_out(c, set)) return true;
     for (size_t k = 0; k < c->n_pairs; k++)
         if (c->pairs[k].jumped && jump_of(&c->pairs[k], set->method->n_stages - 1) == -c->pairs[k].jumped) return true;

@@ -71,16 +71,26 @@ void fw_accuracy_setup(fw_setup *s, const fw_model *m, double speed, double velo
     while (r + 2 < N_ROWS && m->accuracy < TABLE[r + 1].accuracy) r++;
     double f = log(m->accuracy / TABLE[r].accuracy) / log(TABLE[r + 1].accuracy / TABLE[r].accuracy);
     f = fmin(1, fmax(0, f));
+    bool has_own = (m->effects & FW_EFFECT_ICE_ON_ICE) != 0, has_skin = (m->effects & FW_EFFECT_SKIN_DRAG) != 0;
     bool has_friction = (m->effects & FW_EFFECT_FRICTION) != 0, has_drag = (m->effects & FW_EFFECT_FORM_DRAG) != 0;
     *s = (fw_setup){
         .structure_radius = m->structure_radius,
-        .speed = speed,
+        .flow = {.ux = speed, .ice_x = speed},
         .contact = {m->stiffness, m->damping_ratio, has_friction ? m->friction : 0, m->slip_damping_ratio},
+        .floe_contact = {has_own ? m->floe_stiffness : m->stiffness, m->damping_ratio,
+                         !has_friction ? 0 : has_own ? m->floe_friction : m->friction, m->slip_damping_ratio},
         .has_floe_contact = (m->effects & FW_EFFECT_FLOE_CONTACT) != 0,
         .has_drag = has_drag,
         .has_rotation = (m->effects & FW_EFFECT_ROTATION) != 0,
         .has_friction = has_friction,
+        .has_wind = (m->effects & FW_EFFECT_WIND) != 0,
+        .has_deflection = (m->effects & FW_EFFECT_DEFLECTED_FLOW) != 0,
+        .has_spin_drag = has_skin && (m->effects & FW_EFFECT_ROTATION) != 0,
+        .has_added_mass = (m->effects & FW_EFFECT_ADDED_MASS) != 0,
         .ice_density = m->ice_density,
+        .water_density = m->water_density,
+        .skin_drag = has_skin ? m->skin_drag : 0,
+        .wind = m->wind,
         .drag_per_area = has_drag ? 0.5 * m->water_density * m->form_drag : 0,
         .method = FW_METHOD_ARK3,
         .is_lone_exact = !m->numerics.order, /* a study of the method is one of every contact */

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "kernel/strip.h"
 #include "realisation/accuracy.h"
 #include "realisation/window.h"
 
@@ -12,27 +13,43 @@ static fw_status add_floe(fw_scene *to, size_t *capacity, fw_floe f, fw_msg *m)
     return FW_OK;
 }
 
+/* The same floe in a frame that has the current along +x. */
+static fw_floe turned(const fw_strip *by, const fw_body *b)
+{
+    double c = by->cx, s = by->cy;
+    return (fw_floe){c * b->x + s * b->y, c * b->y - s * b->x, 2 * b->radius, b->thickness, c * b->vx + s * b->vy, c * b->vy - s * b->vx, b->spin};
+}
+
 /* All floes that are awake, and the untouched ones that the current brings near within the scene's duration. */
-static fw_status gather(const fw_window_run *r, fw_scene *to, fw_msg *m)
+static fw_status gather(const fw_window_run *r, const fw_strip *by, fw_scene *to, fw_msg *m)
 {
     const fw_world *w = r->world;
     size_t          capacity = 0;
-    double          from, low, high;
-    fw_kernel_needs_ice(r->kernel, w, &from, &low, &high);
-    from -= to->speed * to->duration;
-    for (size_t i = 0; i < w->n_bodies; i++) {
-        const fw_body *b = &w->bodies[i];
-        FW_TRY(add_floe(to, &capacity, (fw_floe){b->x, b->y, 2 * b->radius, b->thickness, b->vx, b->vy, b->spin}, m));
-    }
+    fw_box          box = fw_window_box(r, to->speed * to->duration);
+    fw_strip        strip = fw_strip_of(&r->setup, w);
+    for (size_t i = 0; i < w->n_bodies; i++) FW_TRY(add_floe(to, &capacity, turned(by, &w->bodies[i]), m));
     for (size_t q = 0; q < w->n_blocks; q++) {
         const fw_block *b = &w->blocks[q];
         for (size_t i = 0; i < b->n; i++) {
-            double x = b->x[i] + w->drift, y = b->y[i];
-            if (b->is_taken[i] || fabs(y) > r->setup.half_width || x < from || y < low || y > high || x > r->setup.downstream) continue;
-            FW_TRY(add_floe(to, &capacity, (fw_floe){x, y, 2 * b->radius[i], b->thickness[i], to->speed, 0, 0}, m));
+            double x = b->x[i] + w->drift_x, y = b->y[i] + w->drift_y;
+            if (b->is_taken[i] || !fw_strip_has(&strip, b->x[i], b->y[i]) || x < box.x0 || x > box.x1 || y < box.y0 || y > box.y1 ||
+                strip.cx * x + strip.cy * y > r->setup.downstream)
+                continue;
+            fw_body f = fw_kernel_floe(&r->setup, b->radius[i], b->thickness[i]);
+            f.x = x, f.y = y;
+            fw_kernel_free_drift(&r->setup, &f, x, y, &f.vx, &f.vy);
+            FW_TRY(add_floe(to, &capacity, turned(by, &f), m));
         }
     }
     return FW_OK;
+}
+
+/* Along the current of this instant. A scene's lasts. */
+static fw_strip direction_of(const fw_window_run *r)
+{
+    const fw_flow *f = &r->setup.flow;
+    double         u = hypot(f->ux, f->uy);
+    return (fw_strip){.cx = u > 0 ? f->ux / u : 1, .cy = u > 0 ? f->uy / u : 0};
 }
 
 fw_status fw_realise_excerpt(const fw_model *model, const fw_scenario *sc, double t, double duration, const fw_tick *tick, fw_scene *out,
@@ -50,7 +67,13 @@ fw_status fw_realise_excerpt(const fw_model *model, const fw_scenario *sc, doubl
     if (s == FW_OK && warm_up < t) s = fw_window_go(&r, warm_up, t, tick, m);
     if (s == FW_OK) s = fw_window_go(&r, t, t, tick, m);
     if (s == FW_OK) s = fw_window_feed(&r, at.speed * duration, m);
-    if (s == FW_OK) s = gather(&r, out, m);
+    if (s == FW_OK) {
+        fw_strip by = direction_of(&r);
+        out->model.effects &= ~(uint32_t)FW_EFFECT_TIDE;
+        out->speed = fmax(hypot(r.setup.flow.ux, r.setup.flow.uy), FW_SLOWEST);
+        out->wind_speed = at.wind_speed, out->wind_angle = at.wind_angle - atan2(by.cy, by.cx);
+        s = gather(&r, &by, out, m);
+    }
     fw_window_close(&r);
     if (s != FW_OK) fw_scene_free(out);
     return s;

@@ -10,6 +10,7 @@
 #include "kernel/kernel.h"
 #include "physics/drag.h"
 #include "realisation/accuracy.h"
+#include "realisation/flow.h"
 #include "realisation/outcome.h"
 #include "realisation/verdict.h"
 
@@ -41,10 +42,11 @@ static void floes_now(const fw_world *w, fw_floe *floes)
     }
 }
 
-static fw_status simulate(fw_kernel *k, fw_world *w, fw_wear *wear, double duration, const fw_tick *tick,
+static fw_status simulate(fw_kernel *k, fw_world *w, fw_wear *wear, const fw_weather *weather, double duration, const fw_tick *tick,
                           const fw_frame_sink *frames, fw_floe *floes, fw_msg *m)
 {
     size_t n_frames = 0;
+    double turned = 0;
     for (;;) {
         double next = duration;
         if (frames) {
@@ -57,7 +59,12 @@ static fw_status simulate(fw_kernel *k, fw_world *w, fw_wear *wear, double durat
             next = fmin(duration, at);
         }
         if (!(w->t < duration)) return FW_OK;
-        FW_TRY(fw_kernel_step(k, w, wear, next, m));
+        double turns = fw_weather_segment_end(weather, turned);
+        FW_TRY(fw_kernel_step(k, w, wear, fmin(next, turns), m));
+        if (w->t == turns) {
+            fw_flow flow = fw_weather_flow(weather, turned = turns);
+            fw_kernel_turn(k, w, &flow);
+        }
         if (tick && ((uint64_t)w->ledger.macro_steps & 63) == 0) FW_TRY(tick->call(tick->self, w->t / duration));
     }
 }
@@ -112,12 +119,15 @@ static fw_status run_once(const fw_scene *scene, const fw_model *model, double f
                           fw_scene_result *out, fw_msg *m)
 {
     fw_setup   setup;
+    fw_weather weather;
     fw_kernel *k = NULL;
     fw_world  *w = NULL;
     fw_wear    wear = {0};
     fw_accuracy_setup(&setup, model, scene->speed, fastest);
     setup.half_width = setup.downstream = INFINITY; /* no untouched ice, and nobody is forgotten */
     if (model->max_evaluations > 0) setup.max_evaluations = model->max_evaluations;
+    fw_scenario sc = {.speed = scene->speed, .wind_speed = scene->wind_speed, .wind_angle = scene->wind_angle, .tide_phase = scene->tide_phase};
+    FW_TRY(fw_weather_init(&weather, &setup, model, &sc, 0, scene->duration, -1, m));
     fw_status s = fw_wear_init(&wear, model->structure_radius, model->n_arcs, model->n_laws, model->laws, m);
     if (s == FW_OK) s = fw_world_create(&w, model->structure_radius, m);
     if (s == FW_OK) s = fw_kernel_create(&k, &setup, m);
@@ -126,7 +136,7 @@ static fw_status run_once(const fw_scene *scene, const fw_model *model, double f
         wear.rule = model->numerics.wear_rule;
         wear.is_open = true;
         fw_world_open_ledger(w);
-        s = simulate(k, w, &wear, scene->duration, tick, frames, out->floes, m);
+        s = simulate(k, w, &wear, &weather, scene->duration, tick, frames, out->floes, m);
         if (s == FW_OK || s == FW_E_NUMERIC || s == FW_E_LIMIT) fill(scene, w, &wear, out);
         if (s == FW_OK) s = fw_verdict(&out->record, w, model->numerics.order ? INFINITY : setup.energy_tolerance, m);
     }

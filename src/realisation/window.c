@@ -1,19 +1,19 @@
 #include "realisation/window.h"
 
+#include <math.h>
+
 #include "realisation/accuracy.h"
 #include "realisation/cost.h"
 
 /* Of the plain method: the paper's area reaches 60 m upstream. */
 static const double PLAIN_INLET = -60;
 
-static fw_ice_need ice_need(const fw_window_run *r)
+static fw_box ice_need(const fw_window_run *r)
 {
-    fw_ice_need n = {.low = -r->setup.half_width, .high = r->setup.half_width};
-    if (r->plain)
-        n.from = fw_plain_needs_ice_from(r->plain, r->world);
-    else
-        fw_kernel_needs_ice(r->kernel, r->world, &n.from, &n.low, &n.high);
-    return n;
+    double from, half = r->setup.half_width;
+    if (!r->plain) return fw_kernel_needs_ice(r->kernel, r->world);
+    from = fw_plain_needs_ice_from(r->plain, r->world);
+    return (fw_box){from, r->setup.downstream, -half, half};
 }
 
 static fw_status lay(fw_window_run *r, const fw_scenario *sc, fw_msg *m)
@@ -31,7 +31,7 @@ static fw_status lay(fw_window_run *r, const fw_scenario *sc, fw_msg *m)
     else
         FW_TRY(fw_kernel_create(&r->kernel, &r->setup, m));
     return fw_ice_lay(&r->ice, &f, r->world, r->setup.half_width, r->setup.downstream,
-                      sc->speed * fw_accuracy_warm_up(r->model, sc->speed), m);
+                      sc->speed * fw_accuracy_warm_up(r->model, sc->speed), r->weather.tide || r->setup.flow.ice_y != 0, m);
 }
 
 /* How many floes are awake, and how far the jam has grown against the current. */
@@ -49,10 +49,18 @@ double fw_window_now(const fw_window_run *r)
     return r->kernel ? fw_kernel_now(r->kernel, r->world) : r->world->t;
 }
 
+fw_box fw_window_box(const fw_window_run *r, double more)
+{
+    fw_box         box = ice_need(r);
+    const fw_flow *f = &r->setup.flow;
+    double         u = hypot(f->ice_x, f->ice_y), x = u > 0 ? more * f->ice_x / u : more, y = u > 0 ? more * f->ice_y / u : 0;
+    box.x0 -= fmax(x, 0), box.x1 -= fmin(x, 0), box.y0 -= fmax(y, 0), box.y1 -= fmin(y, 0);
+    return box;
+}
+
 fw_status fw_window_feed(fw_window_run *r, double more, fw_msg *m)
 {
-    fw_ice_need need = ice_need(r);
-    need.from -= more;
+    fw_box need = fw_window_box(r, more);
     r->is_ice = true;
     FW_TRY(fw_ice_feed(&r->ice, r->world, &need, m));
     r->is_ice = false;
@@ -66,6 +74,20 @@ static fw_status attend(void *self)
     return r->stopped;
 }
 
+/* Towards t_end, where the current changes at the latest. */
+static fw_status towards(fw_window_run *r, double t_end, fw_msg *m)
+{
+    fw_world *w = r->world;
+    double    until = fmin(t_end, fw_weather_segment_end(&r->weather, w->t));
+    FW_TRY(fw_kernel_step(r->kernel, w, &r->wear, until, m));
+    if (w->t == until && until == fw_weather_segment_end(&r->weather, r->turned)) {
+        r->turned = until;
+        r->setup.flow = fw_weather_flow(&r->weather, until);
+        fw_kernel_turn(r->kernel, w, &r->setup.flow);
+    }
+    return FW_OK;
+}
+
 fw_status fw_window_go(fw_window_run *r, double t_end, double t_all, const fw_tick *tick, fw_msg *m)
 {
     fw_world *w = r->world;
@@ -75,7 +97,7 @@ fw_status fw_window_go(fw_window_run *r, double t_end, double t_all, const fw_ti
         if (r->plain)
             FW_TRY(fw_plain_step(r->plain, w, &r->wear, t_end, m));
         else
-            FW_TRY(fw_kernel_step(r->kernel, w, &r->wear, t_end, m));
+            FW_TRY(towards(r, t_end, m));
         note_extent(w);
         if (quiet % 64 == 0 || r->plain) FW_TRY(attend(r));
     }
@@ -86,6 +108,9 @@ fw_status fw_window_open(fw_window_run *r, const fw_model *model, const fw_scena
 {
     *r = (fw_window_run){.model = model};
     fw_accuracy_setup(&r->setup, model, sc->speed, sc->speed);
+    FW_CHECK(model->numerics.scheme == FW_SCHEME_EVENTS || !(model->effects & FW_EFFECT_TIDE), m, FW_E_UNSUPPORTED,
+             "the plain methods have no current that changes within a window");
+    FW_TRY(fw_weather_init(&r->weather, &r->setup, model, sc, fw_accuracy_warm_up(model, sc->speed), model->window, (int)sc->mix, m));
     r->setup.attend = attend, r->setup.attend_self = r;
     FW_TRY(fw_cost_limit(model, sc, &r->setup.max_evaluations, m));
     FW_TRY(fw_wear_init(&r->wear, model->structure_radius, model->n_arcs, model->n_laws, model->laws, m));

@@ -10,7 +10,7 @@ fw_status fw_world_create(fw_world **out, double structure_radius, fw_msg *m)
 {
     FW_TRY(fw_alloc(out, 1, sizeof **out, "world", m));
     (*out)->structure_radius = structure_radius;
-    (*out)->ice_from = (*out)->ice_low = -INFINITY, (*out)->ice_high = INFINITY;
+    (*out)->ice_from = (*out)->ice_low = -INFINITY, (*out)->ice_to = (*out)->ice_high = INFINITY;
     return FW_OK;
 }
 
@@ -45,7 +45,7 @@ fw_status fw_world_add_body(fw_world *w, const fw_body *proto, fw_msg *m)
     b->t = w->t;
     b->t_wall = b->t_hit = -INFINITY;
     b->is_touched = false;
-    b->x_listed = b->x - w->drift, b->y_listed = b->y;
+    b->x_listed = b->x - w->drift_x, b->y_listed = b->y - w->drift_y;
     w->max_radius = fmax(w->max_radius, b->radius);
     w->ledger.inflow += kinetic(b);
     w->ledger.floes_in++;
@@ -82,12 +82,24 @@ void fw_world_drop_blocks_beyond(fw_world *w, double x)
     size_t kept = 0;
     for (size_t i = 0; i < w->n_blocks; i++) {
         fw_block b = w->blocks[i];
-        if (b.n_left == 0 || b.x_min + w->drift > x) continue;
+        if (b.n_left == 0 || b.x_min + w->drift_x > x) continue;
         w->blocks[i] = w->blocks[kept];
         w->blocks[kept++] = b;
     }
     if (kept != w->n_blocks) w->block_changes++;
     w->n_blocks = kept;
+}
+
+void fw_world_drop_block(fw_world *w, uint64_t first_name)
+{
+    for (size_t i = 0; i < w->n_blocks; i++) {
+        if (w->blocks[i].first_name != first_name) continue;
+        fw_block b = w->blocks[i];
+        for (size_t k = i; k + 1 < w->n_blocks; k++) w->blocks[k] = w->blocks[k + 1];
+        w->blocks[--w->n_blocks] = b;
+        w->block_changes++;
+        return;
+    }
 }
 
 static double stored(const fw_world *w, const fw_contact *c)

@@ -1,7 +1,7 @@
 /* The state of a simulation: awake floes, their contacts, and blocks of ice that nothing has touched yet. Knows no method.
  *
  * Frame: structure at the origin, current along +x. Ice that nothing has touched drifts with the water and needs no
- * arithmetic: it stays in blocks of rows in the ice frame, x = X + drift, until an awake floe comes near. */
+ * arithmetic: it stays in blocks of rows in the ice frame, (x, y) = (X, Y) + drift, until an awake floe comes near. */
 #ifndef FW_WORLD_WORLD_H
 #define FW_WORLD_WORLD_H
 
@@ -21,7 +21,8 @@ typedef struct fw_body {
     double   x, y, vx, vy, spin;    /* [m], [m/s], [rad/s] anticlockwise */
     double   radius, thickness;     /* [m] */
     double   inv_mass, inv_inertia; /* [1/kg], [1/(kg m2)]; inv_inertia = 0 locks rotation */
-    double   drag;                  /* 1/2 rho_w Cf D h [kg/m] */
+    double   drag, air;             /* 1/2 rho C A of water and of air [kg/m] */
+    double   spin_drag;             /* of the water on the face, over R^2 [kg/m]: effects/skin_drag.h */
     double   t_wall;                /* last instant with the structure contact closed; -INFINITY: never */
     double   t_hit;                 /* first touch of the present visit to the structure */
     double   x_listed, y_listed;    /* where it was when neighbours were last listed, in the ice frame */
@@ -48,7 +49,7 @@ typedef struct fw_block {
 
 typedef struct fw_world {
     double      t;     /* now [s] */
-    double      drift; /* x - X of untouched ice [m] */
+    double      drift_x, drift_y; /* x - X, y - Y of untouched ice [m] */
     size_t      n_bodies, body_capacity;
     fw_body    *bodies;
     size_t      n_contacts, contact_capacity;
@@ -56,8 +57,8 @@ typedef struct fw_world {
     size_t      n_blocks, block_capacity;
     fw_block   *blocks; /* those beyond n_blocks hold memory for the next ones */
     uint64_t    block_changes; /* blocks added or dropped so far: block numbers kept from before a change are stale */
-    /* Untouched ice is complete from X = ice_from on (ice frame), for y from ice_low to ice_high: who feeds the world says so. */
-    double      ice_from, ice_low, ice_high;
+    /* Untouched ice is complete here (ice frame): who feeds the world says so. */
+    double      ice_from, ice_to, ice_low, ice_high;
     double      structure_radius; /* [m] */
     double      max_radius;       /* of any floe seen */
     uint64_t    n_touched;
@@ -76,6 +77,7 @@ fw_status fw_world_add_block(fw_world *w, size_t n, const double *x, const doubl
                              const double *thickness, uint64_t first_name, fw_msg *m);
 void      fw_world_drop_blocks_beyond(fw_world *w,
                                       double    x); /* whole blocks with every floe's centre past x (kernel frame) */
+void      fw_world_drop_block(fw_world *w, uint64_t first_name); /* the one of this name */
 /* Forget the awake floes with is_gone[i] set: bodies and contacts close up in order; energy goes to outflow. */
 void      fw_world_forget(fw_world *w, const bool *is_gone);
 

@@ -10,8 +10,9 @@
 static fw_setup setup(void)
 {
     return (fw_setup){.structure_radius = 3.7,
-                      .speed = 0,
+                      .flow = {0},
                       .contact = {2e6, 1, 0.1, 1},
+                      .floe_contact = {2e6, 1, 0.1, 1},
                       .has_floe_contact = true,
                       .has_rotation = true,
                       .has_friction = true,
@@ -126,7 +127,7 @@ static void mirror_images(void **state)
 {
     (void)state;
     fw_setup s = setup();
-    s.speed = 2;
+    s.flow = (fw_flow){.ux = 2, .ice_x = 2};
     rig r[2];
     for (int i = 0; i < 2; i++) {
         double f = i ? -1 : 1;
@@ -155,7 +156,7 @@ static void symmetric_at_once(void **state)
 {
     (void)state;
     fw_setup s = setup();
-    s.speed = 2;
+    s.flow = (fw_flow){.ux = 2, .ice_x = 2};
     rig r = open_rig(&s);
     put(&r, -7, 2.5000001, 5, 0.5, 2, 0, 0, 5125);
     put(&r, -7, -2.5000001, 5, 0.5, 2, 0, 0, 5125);
@@ -177,7 +178,7 @@ static void touches_only(void **state)
 {
     (void)state;
     fw_setup s = setup();
-    s.speed = 2, s.drag_per_area = 5125, s.has_drag = true;
+    s.flow = (fw_flow){.ux = 2, .ice_x = 2}, s.drag_per_area = 5125, s.has_drag = true;
     rig    r = open_rig(&s);
     double x[3] = {-8, -8, -30}, y[3] = {0.5, 30, 0.4}, R[3] = {2, 2, 2}, h[3] = {0.5, 0.5, 0.5};
     assert_int_equal(fw_world_add_block(r.w, 3, x, y, R, h, 100, NULL), FW_OK);
@@ -186,7 +187,7 @@ static void touches_only(void **state)
     assert_int_equal(r.w->bodies[0].name, 100);
     assert_true(r.w->n_touched == 1);
     assert_int_equal(r.w->blocks[0].n_left, 2);
-    CHECK_NEAR(r.w->drift, 4, 1e-12);
+    CHECK_NEAR(r.w->drift_x, 4, 1e-12);
     run(&r, 30);
     assert_int_equal(r.w->blocks[0].n_left, 1); /* the one at y = 30 passed by */
     close_rig(&r);
@@ -202,7 +203,7 @@ static void listing_moves_nothing(void **state)
     fw_body end[3][12];
     for (int k = 0; k < 3; k++) {
         fw_setup s = setup();
-        s.speed = 2, s.drag_per_area = 5125, s.has_drag = true;
+        s.flow = (fw_flow){.ux = 2, .ice_x = 2}, s.drag_per_area = 5125, s.has_drag = true;
         s.horizon = (const double[]){0.5, 4, 16}[k], s.margin = (const double[]){0.02, 0.3, 1}[k];
         rig r = open_rig(&s);
         assert_int_equal(fw_world_add_block(r.w, 12, x, y, R, h, 0, NULL), FW_OK);
@@ -226,7 +227,7 @@ static void limits_and_failures(void **state)
 {
     (void)state;
     fw_setup s = setup();
-    s.speed = 2, s.max_evaluations = 50;
+    s.flow = (fw_flow){.ux = 2, .ice_x = 2}, s.max_evaluations = 50;
     rig r = open_rig(&s);
     put(&r, -7, 0.1, 5, 0.5, 2, 0, 0, 5125);
     fw_msg    m = {""};

@@ -21,8 +21,9 @@ typedef struct rig {
 static fw_setup setup(double zeta, double mu, double slip_ratio)
 {
     return (fw_setup){.structure_radius = RS,
-                      .speed = 2,
+                      .flow = {.ux = 2, .ice_x = 2},
                       .contact = {K, zeta, mu, slip_ratio},
+                      .floe_contact = {K, zeta, mu, slip_ratio},
                       .has_drag = true,
                       .has_rotation = true,
                       .has_friction = true,

@@ -3,7 +3,7 @@
 #include "kernel/path.h"
 #include "physics/drag.h"
 
-static const fw_setup SETUP = {.structure_radius = 3.7, .speed = 2, .velocity_scale = 2};
+static const fw_setup SETUP = {.structure_radius = 3.7, .flow = {.ux = 2, .ice_x = 2}, .velocity_scale = 2};
 
 static fw_path flying(double x, double y, double vx, double vy, double radius, double drag, double mass)
 {
@@ -39,7 +39,7 @@ static void driven_back(void **state)
     for (int i = 0; i < 8; i++)
         for (int j = 0; j < 30; j++) {
             double   angle = 0.15 * i, off = 0.02 * (j + 1), slow = 0.3 + 0.2 * (i % 3), reach = 3.7 + 2.5;
-            fw_setup s = {.structure_radius = 3.7, .speed = slow, .velocity_scale = slow};
+            fw_setup s = {.structure_radius = 3.7, .flow = {.ux = slow, .ice_x = slow}, .velocity_scale = slow};
             fw_body  b = {.x = -reach * cos(angle),
                           .y = reach * sin(angle),
                           .vx = -off * cos(angle) + 0.1 * slow * sin(angle),

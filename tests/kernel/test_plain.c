@@ -17,6 +17,7 @@ static fw_setup setup(void)
 {
     return (fw_setup){.structure_radius = 3.7,
                       .contact = {2e6, 1, 0.1, 1},
+                      .floe_contact = {2e6, 1, 0.1, 1},
                       .has_floe_contact = true,
                       .has_drag = true,
                       .has_rotation = true,
@@ -92,7 +93,7 @@ static void free_flight(void **state)
 {
     (void)state;
     fw_setup s = setup();
-    s.speed = 2;
+    s.flow = (fw_flow){.ux = 2, .ice_x = 2};
     double       K = s.drag_per_area * D * H / mass(), t = 0.8;
     fw_drag_flow exact = fw_drag_free(K, 2, t);
     for (size_t k = 0; k < 3; k++) {
@@ -129,7 +130,7 @@ static void head_on(void **state)
 static outcome hit(fw_scheme scheme, fw_wear_rule rule, double dt)
 {
     fw_setup s = setup();
-    s.speed = 2;
+    s.flow = (fw_flow){.ux = 2, .ice_x = 2};
     double  reach = 3.7 + D / 2;
     fw_body b = {.x = -(sqrt(reach * reach - OFFSET * OFFSET) + 0.3017), .y = OFFSET, .vx = 2};
     return run(s, scheme, rule, dt, b, 5.3);

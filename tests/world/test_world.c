@@ -66,10 +66,10 @@ static void blocks(void **state)
     assert_int_equal(fw_world_add_block(w, 2, x, y, r, h, 7, NULL), FW_OK);
     assert_int_equal(fw_world_add_block(w, 0, NULL, NULL, NULL, NULL, 9, NULL), FW_OK); /* an empty tile */
     CHECK_NEAR(w->max_radius, 2, 0);
-    w->drift = 20;
+    w->drift_x = 20;
     fw_world_drop_blocks_beyond(w, 24);
     assert_int_equal(w->n_blocks, 1); /* the empty one is gone, the other still has a floe at 21 */
-    w->drift = 30;
+    w->drift_x = 30;
     fw_world_drop_blocks_beyond(w, 24);
     assert_int_equal(w->n_blocks, 0);
     fw_world_destroy(w);

@@ -1,0 +1,109 @@
+#include "realisation/flow.h"
+
+#include <math.h>
+
+#include "effects/wind.h"
+#include "field/sizes.h"
+
+static const double TWO_PI = 6.283185307179586476925286766559;
+
+/* Change of the current from one segment to the next, over its speed and the accuracy. The error is that of the midpoint rule: a tenth of a
+ * tide's period in 60 segments is right to 5e-4 of a change of a tenth. */
+static const double TURN = 0.5;
+/* The structure gives way to water up to here: 1 % of the current is left to deflect. In radii of the structure. */
+static const double DEFLECTED = 10;
+/* In the wind floes drift apart: those within this way upstream are awake, unless on that way they come apart by less than this share of the
+ * mean diameter. */
+static const double AWAKE_WAY = 100, APART = 0.01;
+
+/* Along +x and to its left, over the speed. */
+static void course_at(const fw_weather *w, double t, double *x, double *y)
+{
+    const fw_tide *tide = w->tide;
+    if (tide->n_rows == 0) {
+        double phi = w->phase + TWO_PI * (t - w->middle) / tide->period;
+        *x = cos(phi), *y = tide->minor_ratio * sin(phi);
+        return;
+    }
+    const fw_course_row *r = tide->rows;
+    size_t               k = 0;
+    double               at = t - w->start;
+    while (k + 1 < tide->n_rows && r[k + 1].time <= at) k++;
+    double factor = r[k].factor, turn = r[k].turn;
+    if (k + 1 < tide->n_rows && at > r[k].time) {
+        double u = (at - r[k].time) / (r[k + 1].time - r[k].time);
+        factor += u * (r[k + 1].factor - factor), turn += u * (r[k + 1].turn - turn);
+    }
+    *x = factor * cos(turn), *y = factor * sin(turn);
+}
+
+/* Largest change of the current per second, over its speed. */
+static double fastest_change(const fw_tide *tide)
+{
+    if (tide->n_rows == 0) return TWO_PI / tide->period;
+    double most = 0;
+    for (size_t k = 0; k + 1 < tide->n_rows; k++) {
+        const fw_course_row *a = &tide->rows[k], *b = a + 1;
+        double               dt = b->time - a->time, factor = fmax(fabs(a->factor), fabs(b->factor));
+        if (dt > 0) most = fmax(most, hypot(b->factor - a->factor, factor * (b->turn - a->turn)) / dt);
+    }
+    return most;
+}
+
+/* Free drift over the wind's speed of the mean floe and its spread, weighted by area: what the ice as a whole does, and how floes come apart. */
+static fw_status mean_drift(const fw_model *model, int mix, const fw_setup *set, double *mean, double *spread, double *diameter, fw_msg *m)
+{
+    enum { N = 400 };
+    fw_sizes sizes;
+    double   weight = 0, sum = 0, squares = 0;
+    FW_TRY(fw_sizes_init(&sizes, &model->mixes[mix], model->size_law, model->size_a, model->size_b, m));
+    for (int i = 0; i < N; i++) {
+        double D, h;
+        fw_sizes_draw(&sizes, (i + 0.5) / N, &D, &h);
+        fw_body b = fw_kernel_floe(set, 0.5 * D, h);
+        double  share = fw_wind_free_drift(b.air, b.drag, 1);
+        weight += D * D, sum += D * D * share, squares += D * D * share * share;
+    }
+    *mean = sum / weight;
+    *spread = sqrt(fmax(0, squares / weight - *mean * *mean));
+    *diameter = sizes.mean_diameter;
+    return FW_OK;
+}
+
+fw_status fw_weather_init(fw_weather *w, fw_setup *set, const fw_model *model, const fw_scenario *sc, double start, double duration, int mix,
+                          fw_msg *m)
+{
+    *w = (fw_weather){.speed = sc->speed, .phase = sc->tide_phase, .middle = start + 0.5 * duration, .start = start, .segment = INFINITY};
+    if (model->effects & FW_EFFECT_TIDE) {
+        double change = fastest_change(&model->tide);
+        w->tide = &model->tide;
+        w->segment = change > 0 ? TURN * model->accuracy / change : INFINITY;
+    }
+    if (set->has_wind) w->wind_x = sc->wind_speed * cos(sc->wind_angle), w->wind_y = sc->wind_speed * sin(sc->wind_angle);
+    if (set->has_wind && mix >= 0) {
+        double spread, diameter, through = hypot(w->wind_x - sc->speed, w->wind_y);
+        FW_TRY(mean_drift(model, mix, set, &w->drift, &spread, &diameter, m));
+        double apart = spread * through * AWAKE_WAY / sc->speed;
+        set->wake_upstream = apart > APART * diameter ? AWAKE_WAY : 0;
+    }
+    if (set->has_deflection && mix >= 0) set->wake_radius = DEFLECTED * model->structure_radius;
+    set->flow = fw_weather_flow(w, 0);
+    return FW_OK;
+}
+
+fw_flow fw_weather_flow(const fw_weather *w, double t)
+{
+    fw_flow f = {.ux = w->speed, .wind_x = w->wind_x, .wind_y = w->wind_y};
+    if (w->tide) {
+        bool is_cut = w->segment < INFINITY;
+        course_at(w, is_cut ? (floor(t / w->segment + 1e-9) + 0.5) * w->segment : t, &f.ux, &f.uy);
+        f.ux *= w->speed, f.uy *= w->speed;
+    }
+    f.ice_x = f.ux + w->drift * (f.wind_x - f.ux), f.ice_y = f.uy + w->drift * (f.wind_y - f.uy);
+    return f;
+}
+
+double fw_weather_segment_end(const fw_weather *w, double t)
+{
+    return w->segment < INFINITY ? (floor(t / w->segment + 1e-9) + 1) * w->segment : INFINITY;
+}
