@@ -35,6 +35,27 @@ typedef enum fw_effect_bit {
 } fw_effect_bit;
 enum { FW_EFFECTS_CORE = 0xf };
 
+/* Keys that somebody wrote, as far as `effects: auto` and its refusals look at them: a default calls for nothing and contradicts nothing. */
+typedef enum fw_given_bit {
+    FW_GIVEN_LAW_SPRING = 1u << 0, /* contact.law: spring */
+    FW_GIVEN_LAW_CRUSH = 1u << 1,  /* contact.law: crush */
+    FW_GIVEN_PRESSURE = 1u << 2,   /* contact.pressure or pressure_exponent */
+    FW_GIVEN_FLAT = 1u << 3,
+    FW_GIVEN_UNLOADING = 1u << 4,
+    FW_GIVEN_FLOE_STIFFNESS = 1u << 5,
+    FW_GIVEN_FLOE_FRICTION = 1u << 6,
+    FW_GIVEN_SKIN_DRAG = 1u << 7,      /* water.skin_drag */
+    FW_GIVEN_ADDED_MASS_ON = 1u << 8,  /* water.added_mass: on */
+    FW_GIVEN_ADDED_MASS_OFF = 1u << 9, /* the same: off */
+    FW_GIVEN_DEFLECTED_ON = 1u << 10,
+    FW_GIVEN_DEFLECTED_OFF = 1u << 11,
+    FW_GIVEN_WIND = 1u << 12,       /* any key of it */
+    FW_GIVEN_WIND_SPEED = 1u << 13, /* the one that makes it blow */
+    FW_GIVEN_TIDE = 1u << 14,
+    FW_GIVEN_COURSE = 1u << 15,
+    FW_GIVEN_CRUSHING_LIMIT = 1u << 16
+} fw_given_bit;
+
 typedef struct fw_thickness_class {
     double thickness; /* [m], 0.0855 .. 8.04 (4h <= sqrt(130h - 11), Lindseth 2013) */
     double share;     /* of the floes, or of the ice area when by_area; sums to 1 over the mix */
@@ -141,6 +162,8 @@ typedef struct fw_model {
     double   friction;           /* mu [-] */
     double   slip_damping_ratio; /* ct = slip_damping_ratio c [-] */
     uint32_t effects;            /* fw_effect_bit set */
+    double   effects_tolerance;  /* auto may drop an effect whose measured change of depth is below this [-]; 0: none is dropped */
+    uint32_t given;              /* fw_given_bit set; looked at where effects are chosen, never in a simulation */
 
     /* What the further effects act with; each while its bit is set. */
     double          skin_drag;      /* Cs on the face pi R^2 [-] */

@@ -7,10 +7,12 @@
 #include "base/memory.h"
 #include "cli/config.h"
 #include "cli/distribution_file.h"
+#include "cli/effects_file.h"
 #include "cli/model_file.h"
 #include "cli/settings.h"
 #include "cli/site_table.h"
 #include "field/sizes.h"
+#include "realisation/facts.h"
 
 /* ---- names ------------------------------------------------------------------------------------------------------ */
 
@@ -269,6 +271,14 @@ static fw_status read_numerics(const fw_reader *r, fw_values *v, fw_model *model
 
 /* ---- the whole -------------------------------------------------------------------------------------------------- */
 
+static fw_status settle_effects(const fw_reader *r, fw_campaign *c)
+{
+    fw_scene_facts facts;
+
+    FW_TRY(fw_facts_campaign(&c->model, &c->site, &facts, r->m));
+    return fw_file_read_effects(r, &facts, &c->model);
+}
+
 static fw_status read_campaign(const fw_reader *r, const char *file, int64_t seed, fw_campaign *c)
 {
     const fw_node *structure = fw_yaml_get(r->root, "structure"), *ice = fw_yaml_get(r->root, "ice");
@@ -302,6 +312,7 @@ static fw_status read_campaign(const fw_reader *r, const char *file, int64_t see
     FW_TRY(read_temperature(r, temperature, v.temperature_floor, &c->site.temperature));
     FW_TRY(read_site(r, ice, current, c));
     FW_TRY(check_sizes(r, floe_diameter ? floe_diameter : ice, &c->model));
+    FW_TRY(settle_effects(r, c));
     FW_TRY(read_precision(r, &v, &c->precision));
     FW_TRY(read_service(r, &v, c));
     fw_status status = fw_model_check(&c->model, r->m);

@@ -14,6 +14,7 @@
 #include "floewear/campaign.h"
 #include "realisation/accuracy.h"
 #include "realisation/cost.h"
+#include "realisation/facts.h"
 
 enum { MAX_SETS = 64, KEY_SET = 1000, KEY_JSON, KEY_PILOT, KEY_SEED, KEY_ACCURACY };
 
@@ -149,11 +150,17 @@ static double predicted_half_width(const fw_campaign *c, const pilot *p, double 
     return z * sqrt(q * (1 - q) / n) * p->sd_log / gsl_ran_ugaussian_pdf(gsl_cdf_ugaussian_Pinv(q));
 }
 
-static bool effect_state(const fw_campaign *c, const fw_effect *e, char *reason, size_t n)
+/* On or off, and why (FW_REASON_SIZE): the rule's own words, or that the file overrides them. */
+static bool effect_state(const fw_campaign *c, const fw_scene_facts *f, const fw_effect *e, char *reason)
 {
-    bool is_on = (c->model.effects & e->bit) != 0, is_needed = fw_effects_needed(e, &c->model, reason, n);
-    if (is_on && !is_needed) snprintf(reason, n, "asked for by the file; the scene does not call for it");
-    if (!is_on && is_needed) snprintf(reason, n, "switched off by the file: %s", e->off);
+    char rule[FW_REASON_SIZE];
+    bool is_on = fw_effects_have(&c->model, e->bit), is_needed = e->is_needed(&c->model, f, rule);
+    if (is_on == is_needed)
+        snprintf(reason, FW_REASON_SIZE, "%s", rule);
+    else if (is_on)
+        snprintf(reason, FW_REASON_SIZE, "asked for by the file (auto: off, %.160s)", rule);
+    else
+        snprintf(reason, FW_REASON_SIZE, "switched off by the file: %s", e->off);
     return is_on;
 }
 
@@ -177,21 +184,21 @@ static forecast predict(const fw_campaign *c, const pilot *p)
     return f;
 }
 
-static void print_json(const fw_campaign *c, const fw_choice *choice, const expected *of, const pilot *p, const forecast *f,
-                       double speed)
+static void print_json(const fw_campaign *c, const fw_scene_facts *facts, const fw_choice *choice, const expected *of, const pilot *p,
+                       const forecast *f, double speed)
 {
-    fw_json          j = fw_json_onto(stdout);
-    const fw_effect *e;
-    size_t           n = fw_effects_list(&e);
+    fw_json                 j = fw_json_onto(stdout);
+    const fw_effect *const *e;
+    size_t                  n = fw_effects_list(&e);
     fw_json_begin_object(&j);
     fw_json_key(&j, "campaign"), fw_json_string(&j, c->name);
     fw_json_key(&j, "effects");
     fw_json_begin_array(&j);
     for (size_t i = 0; i < n; i++) {
-        char reason[200];
-        bool is_on = effect_state(c, &e[i], reason, sizeof reason);
+        char reason[FW_REASON_SIZE];
+        bool is_on = effect_state(c, facts, e[i], reason);
         fw_json_begin_object(&j);
-        fw_json_key(&j, "name"), fw_json_string(&j, e[i].name);
+        fw_json_key(&j, "name"), fw_json_string(&j, e[i]->name);
         fw_json_key(&j, "on"), fw_json_bool(&j, is_on);
         fw_json_key(&j, "reason"), fw_json_string(&j, reason);
         fw_json_end(&j);
@@ -238,17 +245,24 @@ static void print_json(const fw_campaign *c, const fw_choice *choice, const expe
     fw_json_end(&j);
 }
 
-static void print_text(const arguments *a, const fw_campaign *c, const fw_choice *choice, const expected *of, const pilot *p, const forecast *f,
-                       double speed)
+static void print_effects(const fw_campaign *c, const fw_scene_facts *facts)
 {
-    const fw_effect *e;
-    size_t           n = fw_effects_list(&e), wanted = a->pilot < 0 ? USUAL_PILOT : (size_t)a->pilot;
-    printf("plan of campaign %s\n\neffects\n", c->name);
+    const fw_effect *const *e;
+    size_t                  n = fw_effects_list(&e);
+    printf("effects\n");
     for (size_t i = 0; i < n; i++) {
-        char reason[200];
-        bool is_on = effect_state(c, &e[i], reason, sizeof reason);
-        printf("  %-13s %-3s  %s\n", e[i].name, is_on ? "on" : "off", reason);
+        char reason[FW_REASON_SIZE];
+        bool is_on = effect_state(c, facts, e[i], reason);
+        printf("  %-14s %-3s  %s\n", e[i]->name, is_on ? "on" : "off", reason);
     }
+}
+
+static void print_text(const arguments *a, const fw_campaign *c, const fw_scene_facts *facts, const fw_choice *choice, const expected *of,
+                       const pilot *p, const forecast *f, double speed)
+{
+    size_t wanted = a->pilot < 0 ? USUAL_PILOT : (size_t)a->pilot;
+    printf("plan of campaign %s\n\n", c->name);
+    print_effects(c, facts);
     fw_accuracy_line lines[16];
     size_t           n_lines = fw_accuracy_lines(&c->model, speed, lines, 16);
     printf("\naccuracy %g %% of a window's depth, at %.3g m/s; %s\n", 100 * c->model.accuracy, speed, choice->line);
@@ -289,10 +303,12 @@ int fw_cmd_plan(int argc, char **argv)
     fw_msg      m = {""};
     pilot       p = {0};
     expected    e = {0, 0};
-    fw_choice   choice;
+    fw_choice      choice;
+    fw_scene_facts facts;
     fw_choice_wanted wanted = {
         .campaign = a.campaign, .n_sets = a.n_sets, .sets = a.sets, .seed = a.seed, .from = a.accuracy_from};
     fw_status s = fw_choice_campaign(&c, &wanted, &choice, &m);
+    if (s == FW_OK) s = fw_facts_campaign(&c.model, &c.site, &facts, &m);
     if (s == FW_OK) s = expect(&c, &e, &m);
     if (s == FW_OK) s = run_pilot(&c, a.pilot, &p, &m);
     if (s == FW_OK) {
@@ -301,9 +317,9 @@ int fw_cmd_plan(int argc, char **argv)
         forecast f = predict(&c, &p);
         double   speed = p.n ? p.mean_speed : sc.speed;
         if (a.is_json)
-            print_json(&c, &choice, &e, &p, &f, speed);
+            print_json(&c, &facts, &choice, &e, &p, &f, speed);
         else
-            print_text(&a, &c, &choice, &e, &p, &f, speed);
+            print_text(&a, &c, &facts, &choice, &e, &p, &f, speed);
         s = fw_output_finish(&m);
     }
     if (s != FW_OK) fprintf(stderr, "floewear plan: %s\n", m.text[0] ? m.text : fw_status_sentence(s));

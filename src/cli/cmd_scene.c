@@ -117,10 +117,10 @@ static void print_json(const fw_scene *s, const fw_scene_result *r)
 #undef NUMBER
     fw_json_key(&j, "effects");
     fw_json_begin_array(&j);
-    const fw_effect *e;
-    size_t           n = fw_effects_list(&e);
+    const fw_effect *const *e;
+    size_t                  n = fw_effects_list(&e);
     for (size_t i = 0; i < n; i++)
-        if (s->model.effects & e[i].bit) fw_json_string(&j, e[i].name);
+        if (fw_effects_have(&s->model, e[i]->bit)) fw_json_string(&j, e[i]->name);
     fw_json_end(&j);
     fw_json_key(&j, "status");
     fw_json_string(&j, c->status == FW_OK ? "ok" : fw_status_name(c->status));

@@ -8,6 +8,7 @@
 #include "effects/effects.h"
 #include "floewear/scenario.h"
 #include "physics/abrasion.h"
+#include "realisation/facts.h"
 
 enum { KEY_JSON = 1000 };
 
@@ -29,36 +30,71 @@ static const struct argp EFFECTS_ARGP = {OPTIONS, parse, NULL, "Prints the effec
 static const struct argp LAWS_ARGP = {OPTIONS, parse, NULL, "Prints the abrasion laws and their ranges.",
                                       NULL,    NULL,  NULL};
 
+/* The reference is of every effect; `on` is what auto makes of the default model in 40 % ice. */
+static fw_status reference_facts(fw_model *m, fw_scene_facts *f, fw_msg *msg)
+{
+    fw_site site = {0};
+    fw_model_defaults(m);
+    fw_distribution_constant(&site.speed, 1);
+    fw_distribution_constant(&site.concentration, 0.4);
+    return fw_facts_campaign(m, &site, f, msg);
+}
+
+static void print_effects_json(const fw_model *m, const fw_scene_facts *f)
+{
+    const fw_effect *const *e;
+    size_t                  n = fw_effects_list(&e);
+    fw_json                 j = fw_json_onto(stdout);
+    fw_json_begin_object(&j);
+    fw_json_key(&j, "effects");
+    fw_json_begin_array(&j);
+    for (size_t i = 0; i < n; i++) {
+        char reason[FW_REASON_SIZE];
+        fw_json_begin_object(&j);
+        fw_json_key(&j, "name"), fw_json_string(&j, e[i]->name);
+        fw_json_key(&j, "on"), fw_json_bool(&j, e[i]->is_needed(m, f, reason));
+        fw_json_key(&j, "reason"), fw_json_string(&j, e[i]->needed);
+        fw_json_key(&j, "does"), fw_json_string(&j, e[i]->does);
+        fw_json_key(&j, "equation"), fw_json_string(&j, e[i]->equation);
+        fw_json_key(&j, "source"), fw_json_string(&j, e[i]->source);
+        fw_json_key(&j, "range"), fw_json_string(&j, e[i]->range);
+        fw_json_key(&j, "limit"), fw_json_string(&j, e[i]->limit);
+        fw_json_key(&j, "off"), fw_json_string(&j, e[i]->off);
+        fw_json_end(&j);
+    }
+    fw_json_end(&j);
+    fw_json_end(&j);
+}
+
+static void print_effects(void)
+{
+    const fw_effect *const *e;
+    size_t                  n = fw_effects_list(&e);
+    for (size_t i = 0; i < n; i++) {
+        printf("%-14s %s\n", e[i]->name, e[i]->does);
+        printf("  %-12s %s\n  %-12s %s\n  %-12s %s\n  %-12s %s\n", "equation", e[i]->equation, "source", e[i]->source, "range", e[i]->range, "limit case",
+               e[i]->limit);
+        printf("  %-12s %s\n  %-12s %s\n", "when", e[i]->needed, "off", e[i]->off);
+    }
+    printf("\nSwitch with `effects: auto`, a list of names, or a map {name: on | off} in a campaign or scene file.\n");
+}
+
 int fw_cmd_effects(int argc, char **argv)
 {
     bool is_json = false;
     argp_parse(&EFFECTS_ARGP, argc, argv, 0, NULL, &is_json);
-    const fw_effect *e;
-    size_t           n = fw_effects_list(&e);
-    fw_model         m;
-    fw_model_defaults(&m);
-    if (is_json) {
-        fw_json j = fw_json_onto(stdout);
-        fw_json_begin_object(&j);
-        fw_json_key(&j, "effects");
-        fw_json_begin_array(&j);
-        for (size_t i = 0; i < n; i++) {
-            char reason[160];
-            bool is_on = fw_effects_needed(&e[i], &m, reason, sizeof reason);
-            fw_json_begin_object(&j);
-            fw_json_key(&j, "name"), fw_json_string(&j, e[i].name);
-            fw_json_key(&j, "on"), fw_json_bool(&j, is_on);
-            fw_json_key(&j, "reason"), fw_json_string(&j, e[i].needed);
-            fw_json_key(&j, "does"), fw_json_string(&j, e[i].does);
-            fw_json_end(&j);
-        }
-        fw_json_end(&j);
-        fw_json_end(&j);
-        return fw_output_end("floewear effects");
+    fw_model       m;
+    fw_scene_facts f;
+    fw_msg         msg = {""};
+    fw_status      s = reference_facts(&m, &f, &msg);
+    if (s != FW_OK) {
+        fprintf(stderr, "floewear effects: %s\n", msg.text);
+        return fw_status_exit_code(s);
     }
-    for (size_t i = 0; i < n; i++)
-        printf("%-13s %s\n%-13s %s\n%-13s off: %s\n", e[i].name, e[i].does, "", e[i].needed, "", e[i].off);
-    printf("\nSwitch with `effects: auto`, a list of names, or a map {name: on | off} in a campaign or scene file.\n");
+    if (is_json)
+        print_effects_json(&m, &f);
+    else
+        print_effects();
     return fw_output_end("floewear effects");
 }
 

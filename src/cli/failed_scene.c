@@ -20,11 +20,11 @@ static const double AFTER = 15;
 
 static void put_effects(FILE *f, const fw_model *m)
 {
-    const fw_effect *e;
-    size_t           n = fw_effects_list(&e), k = 0;
+    const fw_effect *const *e;
+    size_t                  n = fw_effects_list(&e), k = 0;
     fprintf(f, "effects: [");
     for (size_t i = 0; i < n; i++)
-        if (m->effects & (uint32_t)e[i].bit) fprintf(f, "%s%s", k++ ? ", " : "", e[i].name);
+        if (m->effects & (uint32_t)e[i]->bit) fprintf(f, "%s%s", k++ ? ", " : "", e[i]->name);
     fprintf(f, "]\n");
 }
 

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "effects/effects.h"
 #include "physics/abrasion.h"
 #include "physics/unbreakable.h"
 #include "realisation/accuracy.h"
@@ -95,86 +94,6 @@ static fw_status read_laws(const fw_reader *r, const fw_node *n, fw_model *model
     }
     model->n_laws = count;
     return FW_OK;
-}
-
-/* ---- effects ---------------------------------------------------------------------------------------------------- */
-
-/* Optional effects that later versions have; core ones are in the table of effects. */
-static bool is_later_effect(const char *name)
-{
-    static const char *const names[] = {"skin_drag", "wind", "added_mass", "tide", "deflected_flow", "crushing_limit"};
-
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        if (strcmp(names[i], name) == 0) return true;
-    }
-    return false;
-}
-
-static fw_status find_effect(const fw_reader *r, const fw_node *at, const char *name, const fw_effect **out)
-{
-    const fw_effect *effects;
-    size_t           n = fw_effects_list(&effects), used = 0;
-    const char      *names[32];
-    char             list[300] = "";
-
-    *out = fw_effects_find(name);
-    if (*out) return FW_OK;
-    for (size_t i = 0; i < n && i < 32 && used < sizeof list; i++) {
-        int k = snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", effects[i].name);
-        names[i] = effects[i].name;
-        used += k > 0 ? (size_t)k : 0;
-    }
-    if (is_later_effect(name)) {
-        fw_yaml_fail(at, r->m, "effects: %s is not in this version, which has %s", name, list);
-        return FW_E_UNSUPPORTED;
-    }
-    const char *nearest = fw_keys_nearest_word(n < 32 ? n : 32, names, name);
-    return fw_yaml_fail(at, r->m, "effects: unknown effect \"%.60s\"%s%s%s, wanted of %s", name,
-                        nearest ? ", did you mean \"" : "", nearest ? nearest : "", nearest ? "\"?" : "", list);
-}
-
-static fw_status read_switch(const fw_reader *r, const fw_node *key, const fw_node *value, uint32_t *set)
-{
-    static const fw_key FLAG = {"on", FW_KEY_FLAG, 0, NULL, NULL, -INFINITY, INFINITY, false, NULL, "switch"};
-    const char         *text = NULL;
-    const fw_effect    *effect;
-    bool                is_on;
-    char                path[96];
-
-    snprintf(path, sizeof path, "effects.%.60s", key->text);
-    FW_TRY(fw_read_text(r, value, path, &text));
-    fw_status status = fw_keys_read(&FLAG, r->units, text, &is_on, r->m);
-    if (status != FW_OK) return fw_yaml_blame(value, path, status, r->m);
-    if (!is_on && is_later_effect(key->text)) return FW_OK; /* it is off anyway */
-    FW_TRY(find_effect(r, key, key->text, &effect));
-    *set = is_on ? *set | (uint32_t)effect->bit : *set & ~(uint32_t)effect->bit;
-    return FW_OK;
-}
-
-static fw_status read_effects(const fw_reader *r, const fw_node *n, fw_model *model)
-{
-    const fw_effect *effect;
-    const char      *text = NULL;
-
-    model->effects = fw_effects_auto(model);
-    if (!n) return FW_OK;
-    switch (n->kind) {
-    case FW_NODE_MAP:
-        for (size_t i = 0; i < n->n; i++) FW_TRY(read_switch(r, n->keys[i], n->values[i], &model->effects));
-        return FW_OK;
-    case FW_NODE_LIST:
-        model->effects = 0;
-        for (size_t i = 0; i < n->n; i++) {
-            FW_TRY(fw_read_text(r, n->values[i], "effects", &text));
-            FW_TRY(find_effect(r, n->values[i], text, &effect));
-            model->effects |= (uint32_t)effect->bit;
-        }
-        return FW_OK;
-    case FW_NODE_SCALAR: break;
-    }
-    FW_TRY(fw_read_text(r, n, "effects", &text));
-    if (strcmp(text, "auto") == 0) return FW_OK;
-    return fw_yaml_fail(n, r->m, "effects = \"%.60s\": wanted auto, a list of names, or {name: on/off}", text);
 }
 
 /* ---- thickness mixes -------------------------------------------------------------------------------------------- */
@@ -302,5 +221,5 @@ fw_status fw_file_read_model(const fw_reader *r, fw_values *v, fw_model *model)
                             "ring.arcs = %g: wanted a whole number from 72 to 3600", v->n_arcs);
     }
     model->n_arcs = v->n_arcs >= 0 ? (size_t)v->n_arcs : fw_accuracy_arcs(v->accuracy);
-    return read_effects(r, fw_yaml_get(r->root, "effects"), model);
+    return FW_OK;
 }

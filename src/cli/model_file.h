@@ -1,4 +1,4 @@
-/* The parts of a model that campaign and scene files share: contact, water, ring, abrasion laws, effects; and the
+/* The parts of a model that campaign and scene files share: contact, water, ring, abrasion laws; and the
  * thickness mixes of a campaign. */
 #ifndef FW_CLI_MODEL_FILE_H
 #define FW_CLI_MODEL_FILE_H
@@ -8,7 +8,7 @@
 #include "floewear/scenario.h"
 
 /* Read contact, water, ring and abrasion of root into v and, with what v holds of structure, ice, window and field, all
- * into the model. Effects come last, because `auto` looks at the rest. */
+ * into the model. Its effects are settled later (effects_file.h), because `auto` looks at all of it. */
 fw_status fw_file_read_model(const fw_reader *r, fw_values *v, fw_model *model);
 
 /* ice.thickness_mixes; list NULL: the model keeps the mixes it has. */

@@ -6,8 +6,10 @@
 
 #include "base/memory.h"
 #include "cli/config.h"
+#include "cli/effects_file.h"
 #include "cli/model_file.h"
 #include "physics/unbreakable.h"
+#include "realisation/facts.h"
 
 /* Floes may touch; what rounding of written decimals makes of a touch is no overlap. */
 #define OVERLAP_ALLOWED 1e-9 /* [m] */
@@ -88,6 +90,9 @@ static fw_status read_scene(const fw_reader *r, const char *file, fw_scene *s)
     s->n_floes = floes->n;
     for (size_t i = 0; i < floes->n; i++) FW_TRY(read_floe(r, floes->values[i], i + 1, &s->floes[i]));
     FW_TRY(check_distances(r, floes, s));
+    fw_scene_facts facts;
+    fw_facts_scene(s, &facts);
+    FW_TRY(fw_file_read_effects(r, &facts, &s->model));
     fw_status status = fw_model_check(&s->model, r->m);
     if (status == FW_OK) return FW_OK;
     fw_msg_prefix(r->m, "%.200s: ", file);

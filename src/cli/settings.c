@@ -133,12 +133,12 @@ static void put_floe_diameter(text *t, const fw_values *v)
 
 static void put_effects(text *t, const fw_model *m)
 {
-    const fw_effect *effects;
-    size_t           n = fw_effects_list(&effects);
+    const fw_effect *const *effects;
+    size_t                  n = fw_effects_list(&effects);
 
     put(t, "effects =");
     for (size_t i = 0; i < n; i++) {
-        if (m->effects & (uint32_t)effects[i].bit) put(t, " %s", effects[i].name);
+        if (m->effects & (uint32_t)effects[i]->bit) put(t, " %s", effects[i]->name);
     }
     put(t, "\n");
 }

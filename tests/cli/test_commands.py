@@ -134,15 +134,14 @@ class Plans(InFolder):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("pilot of 2", done.stdout)
         plan = json.loads(call("plan", HERE / "small.yaml", "--pilot", "2", "--json").stdout)
-        self.assertEqual([e["on"] for e in plan["effects"]], [True] * 4)
+        self.assertEqual([e["name"] for e in plan["effects"] if e["on"]], ["floe_contact", "friction", "rotation", "form_drag"])
         self.assertTrue(all(e["name"] and e["reason"] for e in plan["effects"]))
         self.assertEqual((plan["campaign"], plan["pilot"]["n"], plan["pilot"]["failed"]), ("small", 2, 0))
         self.assertEqual(os.listdir("."), [], "a plan writes nothing")
 
     def test_effects_that_are_not_needed(self):
         plan = json.loads(call("plan", HERE / "small.yaml", "--pilot", "0", "--json", "--set", "contact.friction=0").stdout)
-        on = {e["name"]: e["on"] for e in plan["effects"]}
-        self.assertEqual(on, {"floe_contact": True, "friction": False, "rotation": False, "form_drag": True})
+        self.assertEqual([e["name"] for e in plan["effects"] if e["on"]], ["floe_contact", "form_drag"])
 
 
 class Scenes(InFolder):

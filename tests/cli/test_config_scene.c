@@ -27,7 +27,7 @@ static void sketch(void **state)
     assert_true(s.floes[0].x == -5.2 && s.floes[0].y == 0.6 && s.floes[0].diameter == 2.5 &&
                 s.floes[0].thickness == 0.5);
     assert_true(s.floes[0].vx == 2 && s.floes[0].vy == 0 && s.floes[0].spin == 0);
-    assert_int_equal(s.model.effects, FW_EFFECTS_CORE);
+    assert_int_equal(s.model.effects, FW_EFFECTS_CORE & ~FW_EFFECT_FLOE_CONTACT); /* one floe */
     fw_scene_free(&s);
     if (fw_config_scene(&s, GOOD "scene.yaml", 2, sets, &m) != FW_OK) fail_msg("%s", m.text);
     assert_int_equal(s.model.effects, FW_EFFECT_FRICTION | FW_EFFECT_ROTATION);
