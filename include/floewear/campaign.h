@@ -52,7 +52,7 @@ typedef struct fw_campaign {
 void fw_campaign_free(fw_campaign *c);
 
 /* id -> scenario, a pure function of (seed, id). Plain sampling: quantile functions of independent uniforms from the stream
- * (seed, FW_STREAM_SCENARIO, id); the joint table's cell from its margin. */
+ * (seed, FW_STREAM_SCENARIO, id); the joint table's cell from its margin; wind and tide, while these effects are on, from streams of their own. */
 void fw_campaign_scenario(const fw_campaign *c, uint64_t id, fw_scenario *out);
 
 /* Where finished records go (rank 0 only), in arrival order; the sink copies what it keeps. */

@@ -23,6 +23,9 @@ enum { FW_RECORD_GENERATION = 10 };
     X(speed, "m s-1", "current speed")                                                                                 \
     X(mix, "1", "index of the thickness mix")                                                                          \
     X(cell, "1", "index of the cell of the joint site table")                                                          \
+    X(wind_speed, "m s-1", "wind speed; 0 without wind")                                                               \
+    X(wind_angle, "rad", "where the wind blows to, from the current's direction, anticlockwise seen from above")       \
+    X(tide_phase, "rad", "phase of the tide in the window's middle; 0 without a tide")                                 \
     X(concentration_achieved, "1", "ice concentration of the field that was packed")                                   \
     X(mean_diameter, "m", "mean floe diameter of the field that was packed")                                           \
     X(mean_diameter_wanted, "m", "mean floe diameter of the law of sizes")                                             \

@@ -166,11 +166,13 @@ static fw_status read_choice(const fw_key *k, const char *text, int *value, fw_m
     return fw_fail(m, FW_E_INPUT, "\"%.*s\": wanted one of %s", MAX_QUOTE, text, k->words);
 }
 
+static const char *auto_word(const fw_key *k) { return k->words ? k->words : "auto"; }
+
 static fw_status read_number(const fw_key *k, const fw_units *u, const char *text, double *value, fw_msg *m)
 {
     double x;
 
-    if (k->kind == FW_KEY_AUTO && strcmp(text, "auto") == 0) {
+    if (k->kind == FW_KEY_AUTO && strcmp(text, auto_word(k)) == 0) {
         *value = -1;
         return FW_OK;
     }
@@ -228,7 +230,7 @@ int fw_keys_print(const fw_section *s, const fw_key *k, const void *base, char *
     case FW_KEY_NUMBER:
     case FW_KEY_AUTO:
         memcpy(&x, member, sizeof x);
-        if (k->kind == FW_KEY_AUTO && x < 0) return snprintf(out, size, "%s%s%s = auto\n", s->name, dot, k->name);
+        if (k->kind == FW_KEY_AUTO && x < 0) return snprintf(out, size, "%s%s%s = %s\n", s->name, dot, k->name, auto_word(k));
         return snprintf(out, size, "%s%s%s = %.17g%s%s\n", s->name, dot, k->name, x, gap, unit);
     case FW_KEY_COUNT:
         memcpy(&n, member, sizeof n);

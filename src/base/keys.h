@@ -18,7 +18,7 @@ enum { FW_KEY_TEXT_SIZE = 64 };
 
 typedef enum fw_key_kind {
     FW_KEY_NUMBER, /* double in `unit` */
-    FW_KEY_AUTO,   /* double in `unit`, or the word auto: -1 */
+    FW_KEY_AUTO,   /* double in `unit`, or the word auto (another one in `words`): -1 */
     FW_KEY_COUNT,  /* uint64_t */
     FW_KEY_FLAG,   /* bool: on, off, true, false, yes, no */
     FW_KEY_CHOICE, /* int: the place of the word in `words` */
@@ -34,7 +34,7 @@ typedef struct fw_key {
     const char *fallback; /* the default as a file would say it; NULL: must be given; "": may be left out */
     double      least, most;
     bool        is_open;  /* least itself is refused */
-    const char *words;    /* choices "number|area"; for SHAPED its shape */
+    const char *words;    /* choices "number|area"; of an AUTO its word; for SHAPED its shape */
     const char *meaning;
 } fw_key;
 

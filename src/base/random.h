@@ -14,6 +14,8 @@ typedef enum fw_purpose {
     FW_STREAM_SERVICE    = 3, /* id = life number */
     FW_STREAM_SECTIONING = 4, /* interval methods that draw */
     FW_STREAM_SUBSETS    = 5, /* accuracy study: which records a sub-set takes */
+    FW_STREAM_WIND       = 6, /* id = realisation: speed, angle */
+    FW_STREAM_TIDE       = 7, /* id = realisation: phase */
     FW_STREAM_TEST       = 99
 } fw_purpose;
 

@@ -13,5 +13,6 @@ void fw_campaign_free(fw_campaign *c)
     for (size_t i = 0; i < c->n_sets; i++) free(c->sets[i]);
     free(c->sets);
     fw_site_free(&c->site);
+    free(c->model.tide.rows);
     memset(c, 0, sizeof *c);
 }

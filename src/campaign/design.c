@@ -4,7 +4,13 @@
  * whether the site needs it or not, so that a site that turns a constant into a law leaves the other quantities'
  * numbers alone:
  *
- *   u[0] concentration   u[1] speed   u[2] thickness mix   u[3] cell of the joint table */
+ *   u[0] concentration   u[1] speed   u[2] thickness mix   u[3] cell of the joint table
+ *
+ * What came later has a stream of its own, so that it shifts none of these:
+ *
+ *   wind   u[0] speed   u[1] angle          tide   u[0] phase */
+#include <math.h>
+
 #include "base/random.h"
 #include "floewear/campaign.h"
 
@@ -40,6 +46,29 @@ static uint32_t design_pick_cell(const fw_site *s, double u)
     return last;
 }
 
+static const double TURN = 2 * 3.14159265358979323846;
+
+static void design_draw_wind(const fw_site *s, fw_scenario *out)
+{
+    fw_random random;
+    double    u[2];
+
+    fw_random_stream(&random, out->seed, FW_STREAM_WIND, out->id, 0);
+    for (int i = 0; i < 2; i++) u[i] = fw_random_uniform(&random);
+    out->wind_speed = fw_distribution_quantile(&s->wind_speed, u[0]);
+    out->wind_angle = -fw_distribution_quantile(&s->wind_angle, u[1]) * TURN / 360; /* clockwise in the site, anticlockwise here */
+}
+
+static double design_draw_phase(const fw_tide *t, const fw_scenario *s)
+{
+    fw_random random;
+
+    if (t->n_rows > 0) return 0; /* a table has none */
+    if (!isnan(t->phase)) return t->phase;
+    fw_random_stream(&random, s->seed, FW_STREAM_TIDE, s->id, 0);
+    return TURN * fw_random_uniform(&random);
+}
+
 void fw_campaign_scenario(const fw_campaign *c, uint64_t id, fw_scenario *out)
 {
     fw_random random;
@@ -62,4 +91,6 @@ void fw_campaign_scenario(const fw_campaign *c, uint64_t id, fw_scenario *out)
         out->speed         = fw_distribution_quantile(&c->site.speed, u[U_SPEED]);
         out->mix           = design_pick_mix(&c->model, u[U_MIX]);
     }
+    if (c->model.effects & FW_EFFECT_WIND) design_draw_wind(&c->site, out);
+    if (c->model.effects & FW_EFFECT_TIDE) out->tide_phase = design_draw_phase(&c->model.tide, out);
 }

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "cli/config.h"
 #include "cli/distribution_file.h"
+#include "cli/drift_file.h"
 #include "cli/effects_file.h"
 #include "cli/model_file.h"
 #include "cli/settings.h"
@@ -311,6 +312,8 @@ static fw_status read_campaign(const fw_reader *r, const char *file, int64_t see
     temperature = fw_yaml_get(ice, "temperature");
     FW_TRY(read_temperature(r, temperature, v.temperature_floor, &c->site.temperature));
     FW_TRY(read_site(r, ice, current, c));
+    FW_TRY(fw_file_read_drift(r, &v, &c->model, &c->site));
+    c->model.effects_tolerance = v.effects_tolerance;
     FW_TRY(check_sizes(r, floe_diameter ? floe_diameter : ice, &c->model));
     FW_TRY(settle_effects(r, c));
     FW_TRY(read_precision(r, &v, &c->precision));
@@ -321,17 +324,6 @@ static fw_status read_campaign(const fw_reader *r, const char *file, int64_t see
         return status == FW_E_ARG ? FW_E_INPUT : status;
     }
     return fw_settings_make(c, &v, r->m);
-}
-
-static void directory_of(const char *path, char *out, size_t size)
-{
-    const char *slash = strrchr(path, '/');
-    size_t      n = slash ? (size_t)(slash - path) : 0;
-
-    if (slash == path) n = 1;
-    if (n >= size) n = 0;
-    memcpy(out, path, n);
-    out[n] = '\0';
 }
 
 /* Kept with the text, so that both together give the campaign again. */
@@ -353,7 +345,7 @@ fw_status fw_config_campaign_text(fw_campaign *out, const char *name, const char
     fw_units *units = NULL;
 
     memset(out, 0, sizeof *out);
-    directory_of(name, directory, sizeof directory);
+    fw_reader_directory(name, directory, sizeof directory);
     fw_status status = fw_units_open(&units, m);
     if (status == FW_OK) status = fw_yaml_parse(&yaml, name, text, n_bytes, m);
     for (size_t i = 0; i < n_sets && status == FW_OK; i++) status = fw_yaml_set(&yaml, sets[i], m);

@@ -249,7 +249,7 @@ static void print_effects(const fw_campaign *c, const fw_scene_facts *facts)
 {
     const fw_effect *const *e;
     size_t                  n = fw_effects_list(&e);
-    printf("effects\n");
+    printf("  %-14s %-3s  %s\n", "effect", "on", "why");
     for (size_t i = 0; i < n; i++) {
         char reason[FW_REASON_SIZE];
         bool is_on = effect_state(c, facts, e[i], reason);

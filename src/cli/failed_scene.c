@@ -28,9 +28,41 @@ static void put_effects(FILE *f, const fw_model *m)
     fprintf(f, "]\n");
 }
 
+static void put_contact(FILE *f, const fw_model *k)
+{
+    bool is_crush = fw_effects_have(k, FW_EFFECT_CRUSH_CONTACT);
+    fprintf(f, "contact: {law: %s, ", is_crush ? "crush" : "spring");
+    if (k->stiffness_from_pressure)
+        fprintf(f, "stiffness: from_pressure, ");
+    else
+        fprintf(f, "stiffness: %.17g N/m, ", k->stiffness);
+    fprintf(f, "damping_ratio: %.17g, friction: %.17g, slip_damping_ratio: %.17g", k->damping_ratio, k->friction, k->slip_damping_ratio);
+    if (is_crush || k->stiffness_from_pressure)
+        fprintf(f, ", pressure: %.17g Pa, pressure_exponent: %.17g", k->crush.law.pressure, k->crush.law.exponent);
+    if (is_crush) fprintf(f, ", flat: %s", k->crush.has_flat ? "on" : "off");
+    if (is_crush && k->crush.unloading > 0) fprintf(f, ", unloading_stiffness: %.17g", k->crush.unloading);
+    if (fw_effects_have(k, FW_EFFECT_ICE_ON_ICE)) {
+        if (!k->stiffness_from_pressure) fprintf(f, ", floe_stiffness: %.17g N/m", k->floe_stiffness);
+        fprintf(f, ", floe_friction: %.17g", k->floe_friction);
+    }
+    fprintf(f, "}\n");
+}
+
+static void put_wind(FILE *f, const fw_scene *s)
+{
+    const fw_wind *w = &s->model.wind;
+    if (!fw_effects_have(&s->model, FW_EFFECT_WIND)) return;
+    double angle = -s->wind_angle * 180 / 3.14159265358979323846; /* anticlockwise to clockwise */
+    fprintf(f, "wind: {speed: %.17g m/s, angle: %.17g deg, air_density: %.17g kg/m3, skin_drag: %.17g, form_drag: %.17g}\n", s->wind_speed,
+            remainder(angle, 360), w->density, w->skin_drag, w->form_drag);
+}
+
 static void put_laws(FILE *f, const fw_model *m)
 {
-    fprintf(f, "abrasion:\n  laws:\n");
+    fprintf(f, "abrasion:\n");
+    if (fw_effects_have(m, FW_EFFECT_CRUSHING_LIMIT))
+        fprintf(f, "  crushing_limit: {pressure: %.17g Pa, exponent: %.17g}\n", m->crushing_limit.pressure, m->crushing_limit.exponent);
+    fprintf(f, "  laws:\n");
     for (size_t i = 0; i < m->n_laws; i++) {
         const fw_abrasion_law *l = &m->laws[i];
         if (strcmp(l->name, "power") == 0)
@@ -52,9 +84,11 @@ static fw_status put(const fw_scene *s, const fw_campaign *c, const fw_record *r
             from, r->cause);
     fprintf(f, "structure: {diameter: %.17g m}\nice: {density: %.17g kg/m3}\ncurrent: {speed: %.17g m/s}\n", 2 * k->structure_radius,
             k->ice_density, s->speed);
-    fprintf(f, "contact: {stiffness: %.17g N/m, damping_ratio: %.17g, friction: %.17g, slip_damping_ratio: %.17g}\n", k->stiffness,
-            k->damping_ratio, k->friction, k->slip_damping_ratio);
-    fprintf(f, "water: {density: %.17g kg/m3, form_drag: %.17g}\n", k->water_density, k->form_drag);
+    put_contact(f, k);
+    fprintf(f, "water: {density: %.17g kg/m3, form_drag: %.17g", k->water_density, k->form_drag);
+    if (fw_effects_have(k, FW_EFFECT_SKIN_DRAG)) fprintf(f, ", skin_drag: %.17g", k->skin_drag);
+    fprintf(f, "}\n");
+    put_wind(f, s);
     put_effects(f, k);
     put_laws(f, k);
     fprintf(f, "ring: {arcs: %zu}\naccuracy: %.17g\nduration: %.17g s\nfloes:\n", k->n_arcs, k->accuracy, s->duration);

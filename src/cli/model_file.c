@@ -27,7 +27,7 @@ static fw_status refuse_law(const fw_reader *r, const fw_node *at, const char *p
 }
 
 /* {archard: {...}} or {power: {...}} */
-static fw_status read_own_law(const fw_reader *r, const fw_node *map, const char *path, fw_abrasion_law *law)
+static fw_status read_own_law(const fw_reader *r, const fw_node *map, const char *path, bool has_limit, fw_abrasion_law *law)
 {
     if (map->n != 1)
         return fw_yaml_fail(map, r->m, "%s: wanted one law, like {power: {coefficient: 0.1 mm/km, exponent: 1}}", path);
@@ -45,11 +45,12 @@ static fw_status read_own_law(const fw_reader *r, const fw_node *map, const char
     if (!section) return refuse_law(r, map->keys[0], path, name);
     fw_read_path(full, sizeof full, path, name);
     FW_TRY(fw_read_section(r, section, full, map->values[0], &v, NULL));
-    if (is_power && !(v.exponent > 0 && v.exponent < 2)) {
+    if (is_power && !(v.exponent > 0 && v.exponent < (has_limit ? 4 : 2))) {
         return fw_yaml_fail(
             fw_yaml_get(map->values[0], "exponent"), r->m,
-            "%s.exponent = %g: wanted more than 0 and less than 2: at 2 and above the wear of a first touch is "
-            "infinite without a crushing limit",
+            has_limit ? "%s.exponent = %g: wanted more than 0 and less than 4"
+                      : "%s.exponent = %g: wanted more than 0 and less than 2: at 2 and above the wear of a first touch is "
+                        "infinite without a crushing limit (abrasion.crushing_limit)",
             full, v.exponent);
     }
     memset(law, 0, sizeof *law);
@@ -60,11 +61,11 @@ static fw_status read_own_law(const fw_reader *r, const fw_node *map, const char
     return FW_OK;
 }
 
-static fw_status read_law(const fw_reader *r, const fw_node *n, const char *path, fw_abrasion_law *law)
+static fw_status read_law(const fw_reader *r, const fw_node *n, const char *path, bool has_limit, fw_abrasion_law *law)
 {
     const char *name = NULL;
 
-    if (n->kind == FW_NODE_MAP) return read_own_law(r, n, path, law);
+    if (n->kind == FW_NODE_MAP) return read_own_law(r, n, path, has_limit, law);
     FW_TRY(fw_read_text(r, n, path, &name));
     const fw_abrasion_law *known = fw_abrasion_find(name);
     if (!known) return refuse_law(r, n, path, name);
@@ -83,7 +84,7 @@ static fw_status read_laws(const fw_reader *r, const fw_node *n, fw_model *model
         const fw_node *at = n->kind == FW_NODE_LIST ? n->values[i] : n;
         char           path[64];
         snprintf(path, sizeof path, "abrasion.laws[%zu]", i + 1);
-        FW_TRY(read_law(r, at, path, &model->laws[i]));
+        FW_TRY(read_law(r, at, path, model->given & FW_GIVEN_CRUSHING_LIMIT, &model->laws[i]));
         for (size_t k = 0; k < i; k++) {
             const fw_abrasion_law *a = &model->laws[k], *b = &model->laws[i];
             if (strcmp(a->name, b->name) == 0 && a->coefficient == b->coefficient && a->exponent == b->exponent &&
@@ -179,42 +180,80 @@ fw_status fw_file_read_mixes(const fw_reader *r, const fw_node *list, fw_model *
 
 /* ---- the whole -------------------------------------------------------------------------------------------------- */
 
-/* Words of the crushing law that a plan of this program names: refuse them by name, not as wrong numbers. */
-static fw_status refuse_crush(const fw_reader *r, const fw_node *contact)
-{
-    static const char *const rows[][2] = {{"law", "crush"}, {"stiffness", "from_pressure"}};
+static uint32_t bit_if(bool condition, fw_given_bit bit) { return condition ? (uint32_t)bit : 0; }
 
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        const fw_node *n = fw_yaml_get(contact, rows[i][0]);
-        if (n && n->kind == FW_NODE_SCALAR && strcmp(n->text, rows[i][1]) == 0) {
-            fw_yaml_fail(n, r->m, "contact.%s: %s is not in this version, wanted %s", rows[i][0], rows[i][1],
-                         i == 0 ? "spring" : "a stiffness in N/m");
-            return FW_E_UNSUPPORTED;
-        }
-    }
+/* What auto and its refusals want to know of contact: which of its keys somebody wrote. */
+static uint32_t contact_given(uint64_t given, const fw_values *v)
+{
+    const fw_section *s = &fw_table_contact;
+    bool              has_law = fw_read_is_given(s, given, "law");
+
+    return bit_if(has_law && v->contact_law == 0, FW_GIVEN_LAW_SPRING) | bit_if(has_law && v->contact_law == 1, FW_GIVEN_LAW_CRUSH) |
+           bit_if(fw_read_is_given(s, given, "pressure") || fw_read_is_given(s, given, "pressure_exponent"), FW_GIVEN_PRESSURE) |
+           bit_if(fw_read_is_given(s, given, "flat"), FW_GIVEN_FLAT) |
+           bit_if(fw_read_is_given(s, given, "unloading_stiffness"), FW_GIVEN_UNLOADING) |
+           bit_if(fw_read_is_given(s, given, "floe_stiffness") && v->floe_stiffness >= 0, FW_GIVEN_FLOE_STIFFNESS) |
+           bit_if(fw_read_is_given(s, given, "floe_friction") && v->floe_friction >= 0, FW_GIVEN_FLOE_FRICTION);
+}
+
+static fw_status read_contact(const fw_reader *r, fw_values *v, fw_model *model)
+{
+    uint64_t given = 0;
+
+    FW_TRY(fw_read_section(r, &fw_table_contact, "contact", fw_yaml_get(r->root, "contact"), v, &given));
+    model->given |= contact_given(given, v);
+    model->stiffness_from_pressure = v->stiffness < 0;
+    if (v->stiffness >= 0) model->stiffness = v->stiffness; /* else the default stays, as a scale */
+    model->damping_ratio = v->damping_ratio;
+    model->friction = v->friction;
+    model->slip_damping_ratio = v->slip_damping_ratio;
+    model->crush = (fw_crush){.law = {v->pressure, v->pressure_exponent}, .unloading = v->unloading, .has_flat = v->has_flat};
+    model->floe_stiffness = v->floe_stiffness >= 0 ? v->floe_stiffness : model->stiffness;
+    model->floe_friction = v->floe_friction >= 0 ? v->floe_friction : model->friction;
     return FW_OK;
+}
+
+static fw_status read_water(const fw_reader *r, fw_values *v, fw_model *model)
+{
+    const fw_section *s = &fw_table_water;
+    uint64_t          given = 0;
+
+    FW_TRY(fw_read_section(r, s, "water", fw_yaml_get(r->root, "water"), v, &given));
+    bool has_mass = fw_read_is_given(s, given, "added_mass"), has_flow = fw_read_is_given(s, given, "deflected_flow");
+    model->given |= bit_if(fw_read_is_given(s, given, "skin_drag"), FW_GIVEN_SKIN_DRAG) |
+                    bit_if(has_mass && v->has_added_mass, FW_GIVEN_ADDED_MASS_ON) |
+                    bit_if(has_mass && !v->has_added_mass, FW_GIVEN_ADDED_MASS_OFF) |
+                    bit_if(has_flow && v->has_deflected_flow, FW_GIVEN_DEFLECTED_ON) |
+                    bit_if(has_flow && !v->has_deflected_flow, FW_GIVEN_DEFLECTED_OFF);
+    model->water_density = v->water_density;
+    model->form_drag = v->form_drag;
+    model->skin_drag = v->skin_drag;
+    return FW_OK;
+}
+
+static fw_status read_abrasion(const fw_reader *r, fw_values *v, fw_model *model)
+{
+    const fw_node *map = fw_yaml_get(r->root, "abrasion"), *laws, *limit;
+
+    FW_TRY(fw_read_section(r, &fw_table_abrasion, "abrasion", map, v, NULL));
+    limit = fw_yaml_get(map, "crushing_limit");
+    if (limit) {
+        FW_TRY(fw_read_section(r, &fw_table_crushing_limit, "abrasion.crushing_limit", limit, v, NULL));
+        model->crushing_limit = (fw_pressure_law){v->limit_pressure, v->limit_exponent};
+        model->given |= FW_GIVEN_CRUSHING_LIMIT;
+    }
+    laws = fw_yaml_get(map, "laws");
+    return laws ? read_laws(r, laws, model) : FW_OK;
 }
 
 fw_status fw_file_read_model(const fw_reader *r, fw_values *v, fw_model *model)
 {
-    const fw_node *contact = fw_yaml_get(r->root, "contact"), *abrasion = fw_yaml_get(r->root, "abrasion"), *laws;
-
-    FW_TRY(refuse_crush(r, contact));
-    FW_TRY(fw_read_section(r, &fw_table_contact, "contact", contact, v, NULL));
-    FW_TRY(fw_read_section(r, &fw_table_water, "water", fw_yaml_get(r->root, "water"), v, NULL));
+    FW_TRY(read_contact(r, v, model));
+    FW_TRY(read_water(r, v, model));
+    FW_TRY(read_abrasion(r, v, model));
     FW_TRY(fw_read_section(r, &fw_table_ring, "ring", fw_yaml_get(r->root, "ring"), v, NULL));
-    FW_TRY(fw_read_section(r, &fw_table_abrasion, "abrasion", abrasion, v, NULL));
-    laws = fw_yaml_get(abrasion, "laws");
-    if (laws) FW_TRY(read_laws(r, laws, model));
-
     model->structure_radius = v->diameter / 2;
     model->ice_density = v->ice_density;
-    model->water_density = v->water_density;
-    model->form_drag = v->form_drag;
-    model->stiffness = v->stiffness;
-    model->damping_ratio = v->damping_ratio;
-    model->friction = v->friction;
-    model->slip_damping_ratio = v->slip_damping_ratio;
     model->accuracy = v->accuracy;
     if (v->n_arcs >= 0 && v->n_arcs != floor(v->n_arcs)) {
         return fw_yaml_fail(fw_yaml_get(fw_yaml_get(r->root, "ring"), "arcs"), r->m,

@@ -7,8 +7,8 @@
 #include "cli/tables.h"
 #include "floewear/scenario.h"
 
-/* Read contact, water, ring and abrasion of root into v and, with what v holds of structure, ice, window and field, all
- * into the model. Its effects are settled later (effects_file.h), because `auto` looks at all of it. */
+/* Read contact, water, abrasion and ring of root into v and, with what v holds of structure, ice and accuracy, all into the
+ * model. Its effects are settled later (effects_file.h), because `auto` looks at all of it. */
 fw_status fw_file_read_model(const fw_reader *r, fw_values *v, fw_model *model);
 
 /* ice.thickness_mixes; list NULL: the model keeps the mixes it has. */

@@ -7,11 +7,13 @@
 #include "cli/json.h"
 #include "cli/tables.h"
 
-static const char *kind_of(const fw_key *k)
+static const char *kind_of(const fw_key *k, char text[64])
 {
     switch (k->kind) {
     case FW_KEY_NUMBER: return "quantity";
-    case FW_KEY_AUTO: return "quantity or auto";
+    case FW_KEY_AUTO:
+        snprintf(text, 64, "quantity or %s", k->words ? k->words : "auto");
+        return text;
     case FW_KEY_COUNT: return "whole number";
     case FW_KEY_FLAG: return "on or off";
     case FW_KEY_TEXT: return "text";
@@ -39,10 +41,10 @@ static void print_text(FILE *to)
                                                          : "");
         for (size_t k = 0; k < s->n_keys; k++) {
             const fw_key *key = &s->keys[k];
-            char          range[200];
+            char          range[200], kind[64];
             fw_keys_range(key, range, sizeof range);
             fprintf(to, "  %-20s %s\n", key->name, key->meaning);
-            fprintf(to, "  %-20s   %s%s%s%s%s; ", "", kind_of(key), key->unit ? ", in " : "", unit_of(key),
+            fprintf(to, "  %-20s   %s%s%s%s%s; ", "", kind_of(key, kind), key->unit ? ", in " : "", unit_of(key),
                     *range ? ", " : "", range);
             if (!key->fallback) {
                 fprintf(to, "must be given\n");
@@ -61,11 +63,12 @@ static void print_text(FILE *to)
 
 static void print_key(fw_json *j, const fw_key *key)
 {
+    char kind[64];
     fw_json_begin_object(j);
     fw_json_key(j, "key");
     fw_json_string(j, key->name);
     fw_json_key(j, "kind");
-    fw_json_string(j, kind_of(key));
+    fw_json_string(j, kind_of(key, kind));
     fw_json_key(j, "unit");
     fw_json_string(j, key->unit);
     fw_json_key(j, "default"); /* null: none */

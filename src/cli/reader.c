@@ -3,6 +3,17 @@
 #include <stdio.h>
 #include <string.h>
 
+void fw_reader_directory(const char *path, char *out, size_t size)
+{
+    const char *slash = strrchr(path, '/');
+    size_t      n = slash ? (size_t)(slash - path) : 0;
+
+    if (slash == path) n = 1;
+    if (n >= size) n = 0;
+    memcpy(out, path, n);
+    out[n] = '\0';
+}
+
 void fw_read_path(char *out, size_t size, const char *section, const char *key)
 {
     snprintf(out, size, "%.120s%s%.60s", section, *section && *key ? "." : "", key);
@@ -33,8 +44,8 @@ fw_status fw_read_quantity(const fw_reader *r, const fw_node *n, const char *pat
 static bool is_later(const fw_section *s, const char *key)
 {
     static const char *const rows[][2] = {
-        {"contact", "pressure"}, {"contact", "flat"},     {"contact", "unloading_stiffness"}, {"water", "level"},
-        {"water", "skin_drag"},  {"water", "added_mass"}, {"contact", "crushing_limit"},      {"field", "upstream"},
+        {"water", "level"},
+        {"field", "upstream"},
     };
 
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {

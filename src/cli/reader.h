@@ -14,6 +14,9 @@ typedef struct fw_reader {
     fw_msg         *m;
 } fw_reader;
 
+/* The folder that the files of path lie in; "" : the current one. */
+void fw_reader_directory(const char *path, char *out, size_t size);
+
 /* Read the plain keys of a section into base, defaults for what is absent, and check every name.
  *
  * path   what messages call the section ("ice.thickness_mixes[2]"); "" at the top

@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "cli/config.h"
+#include "cli/drift_file.h"
 #include "cli/effects_file.h"
 #include "cli/model_file.h"
 #include "physics/unbreakable.h"
@@ -90,6 +91,7 @@ static fw_status read_scene(const fw_reader *r, const char *file, fw_scene *s)
     s->n_floes = floes->n;
     for (size_t i = 0; i < floes->n; i++) FW_TRY(read_floe(r, floes->values[i], i + 1, &s->floes[i]));
     FW_TRY(check_distances(r, floes, s));
+    FW_TRY(fw_file_read_scene_drift(r, &v, s));
     fw_scene_facts facts;
     fw_facts_scene(s, &facts);
     FW_TRY(fw_file_read_effects(r, &facts, &s->model));
@@ -101,18 +103,20 @@ static fw_status read_scene(const fw_reader *r, const char *file, fw_scene *s)
 
 fw_status fw_config_scene(fw_scene *out, const char *path, size_t n_sets, const char *const *sets, fw_msg *m)
 {
+    char      directory[512];
     fw_yaml   yaml = {0};
     fw_units *units = NULL;
     char     *text;
     size_t    n;
 
     memset(out, 0, sizeof *out);
+    fw_reader_directory(path, directory, sizeof directory);
     FW_TRY(fw_yaml_load_file(path, FW_YAML_MAX_BYTES, &text, &n, m));
     fw_status status = fw_units_open(&units, m);
     if (status == FW_OK) status = fw_yaml_parse(&yaml, path, text, n, m);
     for (size_t i = 0; i < n_sets && status == FW_OK; i++) status = fw_yaml_set(&yaml, sets[i], m);
     if (status == FW_OK) {
-        const fw_reader r = {units, yaml.root, "", m};
+        const fw_reader r = {units, yaml.root, directory, m};
         status = read_scene(&r, path, out);
     }
     fw_yaml_free(&yaml);

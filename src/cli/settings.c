@@ -143,6 +143,56 @@ static void put_effects(text *t, const fw_model *m)
     put(t, "\n");
 }
 
+/* What an effect acts with stands here while it is on: a campaign without it is the campaign that it was before there was the effect. */
+static void put_contact(text *t, const fw_model *m, const fw_values *v)
+{
+    static const char *const always[] = {"stiffness", "damping_ratio", "friction", "slip_damping_ratio"};
+    const fw_section        *s = &fw_table_contact;
+    bool                     is_crush = fw_effects_have(m, FW_EFFECT_CRUSH_CONTACT);
+
+    put(t, "contact.law = %s\n", is_crush ? "crush" : "spring");
+    for (size_t i = 0; i < sizeof always / sizeof always[0]; i++) put_key(t, s, always[i], v);
+    if (is_crush || m->stiffness_from_pressure) put_key(t, s, "pressure", v), put_key(t, s, "pressure_exponent", v);
+    if (is_crush) put_key(t, s, "flat", v), put_key(t, s, "unloading_stiffness", v);
+    if (fw_effects_have(m, FW_EFFECT_ICE_ON_ICE)) put_key(t, s, "floe_stiffness", v), put_key(t, s, "floe_friction", v);
+}
+
+static void put_water(text *t, const fw_model *m, const fw_values *v)
+{
+    put_key(t, &fw_table_water, "density", v);
+    put_key(t, &fw_table_water, "form_drag", v);
+    if (fw_effects_have(m, FW_EFFECT_SKIN_DRAG)) put_key(t, &fw_table_water, "skin_drag", v);
+}
+
+static void put_wind(text *t, const fw_campaign *c, const fw_values *v)
+{
+    if (!fw_effects_have(&c->model, FW_EFFECT_WIND)) return;
+    put_law(t, "wind.speed", &c->site.wind_speed, "m/s");
+    put_law(t, "wind.angle", &c->site.wind_angle, "deg");
+    put_keys(t, &fw_table_wind, v);
+}
+
+static void put_tide(text *t, const fw_model *m, const fw_values *v)
+{
+    const fw_tide *tide = &m->tide;
+
+    if (!fw_effects_have(m, FW_EFFECT_TIDE)) return;
+    if (tide->n_rows == 0) {
+        put_keys(t, &fw_table_tide, v);
+        return;
+    }
+    put(t, "current.course = %zu rows of hash %016" PRIx64 "\n", tide->n_rows, fw_fnv1a64(tide->rows, tide->n_rows * sizeof *tide->rows));
+    for (size_t i = 0; i < tide->n_rows && tide->n_rows <= MAX_SHOWN; i++)
+        put(t, "current.course[%zu] = %.17g s %.17g %.17g rad\n", i + 1, tide->rows[i].time, tide->rows[i].factor, tide->rows[i].turn);
+}
+
+static void put_crushing_limit(text *t, const fw_model *m)
+{
+    if (!fw_effects_have(m, FW_EFFECT_CRUSHING_LIMIT)) return;
+    put(t, "abrasion.crushing_limit.pressure = %.17g Pa\nabrasion.crushing_limit.exponent = %.17g\n", m->crushing_limit.pressure,
+        m->crushing_limit.exponent);
+}
+
 /* Only what is given: a campaign without this section is the campaign that it was before there was one. */
 static void put_numerics(text *t, const fw_values *v)
 {
@@ -170,11 +220,14 @@ fw_status fw_settings_make(fw_campaign *c, const fw_values *v, fw_msg *m)
         put_law(&t, "ice.concentration", &c->site.concentration, "");
         put_law(&t, "current.speed", &c->site.speed, "m/s");
     }
-    put_keys(&t, &fw_table_contact, v);
-    put_keys(&t, &fw_table_water, v);
+    put_contact(&t, &c->model, v);
+    put_water(&t, &c->model, v);
+    put_wind(&t, c, v);
+    put_tide(&t, &c->model, v);
     put_effects(&t, &c->model);
     for (size_t i = 0; i < c->model.n_laws; i++)
         put(&t, "abrasion.laws[%zu].exponent = %.17g\n", i + 1, c->model.laws[i].exponent);
+    put_crushing_limit(&t, &c->model);
     put_keys(&t, &fw_table_exposure, v);
     put_keys(&t, &fw_table_field, v);
     put_keys(&t, &fw_table_ring, v);

@@ -14,22 +14,36 @@
     {name, FW_KEY_NUMBER, AT(member), unit, fallback, range, NULL, meaning}
 #define AUTO(name, member, unit, fallback, range, meaning) \
     {name, FW_KEY_AUTO, AT(member), unit, fallback, range, NULL, meaning}
+#define FLAG(name, member, fallback, meaning) {name, FW_KEY_FLAG, AT(member), NULL, fallback, ANY, NULL, meaning}
 #define COUNT(name, member, fallback, range, meaning) \
     {name, FW_KEY_COUNT, AT(member), NULL, fallback, range, NULL, meaning}
 #define SHAPED(name, fallback, shape, meaning) {name, FW_KEY_SHAPED, 0, NULL, fallback, ANY, shape, meaning}
 #define SECTION(variable, name, meaning, rows) \
     const fw_section variable = {name, meaning, sizeof(rows) / sizeof(rows)[0], rows}
 
+static const char COURSE_MEANING[] =
+    "CSV with columns time, factor, turn: the current in the course of a window, times its speed, turned clockwise; straight between rows";
+
 /* ---- both files ------------------------------------------------------------------------------------------------- */
 
 static const fw_key CONTACT[] = {
-    {"law", FW_KEY_CHOICE, AT(contact_law), NULL, "spring", ANY, "spring", "contact law: spring and dashpot"},
-    NUMBER("stiffness", stiffness, "N/m", "2000 kN/m", FROM_TO(1e3, 1e12), "spring of a contact"),
+    {"law", FW_KEY_CHOICE, AT(contact_law), NULL, "spring", ANY, "spring|crush",
+     "on the structure: spring and dashpot, or ice that crushes and keeps its flat"},
+    {"stiffness", FW_KEY_AUTO, AT(stiffness), "N/m", "2000 kN/m", FROM_TO(1e3, 1e12), "from_pressure",
+     "spring of a contact; from_pressure: as deep an overlap as ice of contact.pressure would crush"},
     NUMBER("damping_ratio", damping_ratio, "1", "1", FROM_TO(0, 100),
            "dashpot over the critical one, c = ratio 2 sqrt(k m)"),
     NUMBER("friction", friction, "1", "0.1", FROM_TO(0, 10), "Coulomb coefficient"),
     NUMBER("slip_damping_ratio", slip_damping_ratio, "1", "1", FROM_TO(0, 100),
            "viscous part of the friction over the normal dashpot"),
+    NUMBER("pressure", pressure, "Pa", "1.1 MPa", FROM_TO(1e3, 1e9), "of ice that crushes, on a contact area of 1 m2"),
+    NUMBER("pressure_exponent", pressure_exponent, "1", "0", FROM_TO(0, 0.99),
+           "q: pressure (area / 1 m2)^-q on the area chord times thickness; 0: the same on every area"),
+    FLAG("flat", has_flat, "on", "crush: the flat that is left turns the floe with it, by a moment up to force times half its width"),
+    AUTO("unloading_stiffness", unloading, "1", "auto", FROM_TO(1, 1e6),
+         "crush: slope of the unloading line over force / deepest overlap; auto: restitution 0.135 head-on"),
+    AUTO("floe_stiffness", floe_stiffness, "N/m", "auto", FROM_TO(1e3, 1e12), "spring between two floes; auto: the structure's"),
+    AUTO("floe_friction", floe_friction, "1", "auto", FROM_TO(0, 10), "Coulomb coefficient between two floes; auto: the structure's"),
 };
 SECTION(fw_table_contact, "contact", "contact of a floe with the structure and with another floe", CONTACT);
 
@@ -37,6 +51,10 @@ static const fw_key WATER[] = {
     NUMBER("density", water_density, "kg/m3", "1025 kg/m3", FROM_TO(100, 2000), "density of the water"),
     NUMBER("form_drag", form_drag, "1", "10", FROM_TO(0, 1000),
            "drag coefficient on a floe's side area, diameter times thickness"),
+    NUMBER("skin_drag", skin_drag, "1", "0.0055", FROM_TO(0, 1),
+           "drag coefficient on a floe's lower face; acts where it is given, or where there is no form drag"),
+    FLAG("added_mass", has_added_mass, "off", "the water round a floe is moved with it"),
+    FLAG("deflected_flow", has_deflected_flow, "off", "the current goes round the structure instead of through it"),
 };
 SECTION(fw_table_water, "water", "water and what it does to a floe", WATER);
 
@@ -49,14 +67,21 @@ SECTION(fw_table_ring, "ring", "resolution of the wear round the structure", RIN
 static const fw_key ABRASION[] = {
     SHAPED("laws", "[bekker2011]", "list of names, {archard: {...}} or {power: {...}}",
            "abrasion laws; the first one governs the stop rule and the report"),
+    SHAPED("crushing_limit", "", "{pressure, exponent}", "largest pressure that wears; left out: pressures of a first touch have no bound"),
 };
 SECTION(fw_table_abrasion, "abrasion", "from contact pressure and sliding path to depth", ABRASION);
+
+static const fw_key CRUSHING_LIMIT[] = {
+    NUMBER("pressure", limit_pressure, "Pa", NULL, FROM_TO(1e3, 1e9), "on a contact area of 1 m2"),
+    NUMBER("exponent", limit_exponent, "1", "0", FROM_TO(0, 0.99), "q: pressure (area / 1 m2)^-q; 0: the same on every area"),
+};
+SECTION(fw_table_crushing_limit, "abrasion.crushing_limit", "pressure at which ice crushes under the contact", CRUSHING_LIMIT);
 
 static const fw_key POWER[] = {
     {"coefficient", FW_KEY_NUMBER, offsetof(fw_law_values, coefficient), "mm/km", NULL, MORE_THAN(0), NULL,
      "depth per path at 1 MPa (and 1 K below zero)"},
     {"exponent", FW_KEY_NUMBER, offsetof(fw_law_values, exponent), "1", NULL, ANY, NULL,
-     "of the pressure in MPa, more than 0 and less than 2"},
+     "of the pressure in MPa, more than 0 and less than 2, with a crushing limit less than 4"},
     {"uses_temperature", FW_KEY_FLAG, offsetof(fw_law_values, uses_temperature), NULL, "off", ANY, NULL,
      "on: pressure over the degrees below zero, as in bekker2011"},
 };
@@ -75,9 +100,12 @@ static const fw_key CAMPAIGN[] = {
     SHAPED("structure", "", "map", "the structure and its measuring points"),
     SHAPED("ice", NULL, "map", "ice and its statistics"),
     SHAPED("current", NULL, "map", "statistics of the current"),
+    SHAPED("wind", "", "map", "statistics of the wind; left out: there is none"),
     SHAPED("contact", "", "map", "contact of floes"),
     SHAPED("water", "", "map", "water"),
     SHAPED("effects", "auto", "auto, list of names, or {name: on/off}", "effects that act in the simulation"),
+    NUMBER("effects_tolerance", effects_tolerance, "1", "0 %", FROM_TO(0, 1),
+           "auto drops an effect whose measured change of depth is below this; 0: none is dropped"),
     SHAPED("abrasion", "", "map", "abrasion laws"),
     SHAPED("exposure", "", "map", "what one realisation simulates"),
     SHAPED("field", "", "map", "extent of the simulated ice"),
@@ -144,8 +172,35 @@ static const fw_key CURRENT[] = {
            "where the current flows to, clockwise from north; integrated exactly, never simulated"),
     SHAPED("joint", "", "file name",
            "CSV with columns speed, direction, concentration, (thickness), probability; instead of the single laws"),
+    SHAPED("tide", "", "{period, minor_ratio, phase}", "the current turns with a tide within a window; its speed is then the tide's largest"),
+    SHAPED("course", "", "file name", COURSE_MEANING),
 };
 SECTION(fw_table_current, "current", "statistics of the current", CURRENT);
+
+#define TIDE_PERIOD NUMBER("period", tide_period, "s", "12.42 h", FROM_TO(60, 1e9), "of the tide; M2 has 12.42 h")
+#define TIDE_RATIO                                                                                                     \
+    NUMBER("minor_ratio", tide_minor_ratio, "1", "0", FROM_TO(-1, 1),                                                  \
+           "smallest over largest current; negative: it turns clockwise seen from above; 0: to and fro")
+static const fw_key TIDE[] = {
+    TIDE_PERIOD,
+    TIDE_RATIO,
+    AUTO("phase", tide_phase, "deg", "auto", FROM_TO(0, 360),
+         "of the window's middle, 0 deg: the largest current; auto: drawn for every window, evenly over the period"),
+};
+SECTION(fw_table_tide, "current.tide", "a tide that turns the current", TIDE);
+
+#define WIND_DRAGS                                                                                                     \
+    NUMBER("air_density", air_density, "kg/m3", "1.3 kg/m3", ABOVE_TO(0, 10), "density of the air"),                    \
+        NUMBER("skin_drag", wind_skin_drag, "1", "0.0018", FROM_TO(0, 1), "drag coefficient on a floe's upper face"),   \
+        NUMBER("form_drag", wind_form_drag, "1", "1.1", FROM_TO(0, 100),                                               \
+               "drag coefficient on the side of a floe's freeboard")
+static const fw_key WIND[] = {
+    SHAPED("speed", "", "distribution in m/s", "of the wind, over the floes; a window draws one"),
+    SHAPED("angle", "0 deg", "distribution in deg",
+           "where the wind blows to, from where the current flows to, clockwise seen from above"),
+    WIND_DRAGS,
+};
+SECTION(fw_table_wind, "wind", "statistics of the wind", WIND);
 
 static const fw_key EXPOSURE[] = {
     NUMBER("window", window, "s", "3 h", FROM_TO(1e-3, 1e9), "time that one realisation collects wear over"),
@@ -203,6 +258,7 @@ static const fw_key SCENE[] = {
     SHAPED("structure", "", "map", "the structure"),
     SHAPED("ice", "", "map", "density and temperature"),
     SHAPED("current", NULL, "map", "current"),
+    SHAPED("wind", "", "map", "wind; left out: there is none"),
     SHAPED("contact", "", "map", "contact of floes"),
     SHAPED("water", "", "map", "water"),
     SHAPED("effects", "auto", "auto, list of names, or {name: on/off}", "effects that act in the simulation"),
@@ -229,8 +285,24 @@ SECTION(fw_table_scene_ice, "ice", "ice", SCENE_ICE);
 
 static const fw_key SCENE_CURRENT[] = {
     NUMBER("speed", speed, "m/s", NULL, FROM_TO(0, 20), "along +x"),
+    SHAPED("tide", "", "{period, minor_ratio, phase}", "the current turns with a tide; its speed is then the tide's largest, along +x"),
+    SHAPED("course", "", "file name", COURSE_MEANING),
 };
 SECTION(fw_table_scene_current, "current", "current", SCENE_CURRENT);
+
+static const fw_key SCENE_TIDE[] = {
+    TIDE_PERIOD,
+    TIDE_RATIO,
+    NUMBER("phase", tide_phase, "deg", "0 deg", FROM_TO(0, 360), "of the middle of the duration, 0 deg: the largest current"),
+};
+SECTION(fw_table_scene_tide, "current.tide", "a tide that turns the current", SCENE_TIDE);
+
+static const fw_key SCENE_WIND[] = {
+    NUMBER("speed", wind_speed, "m/s", "0 m/s", FROM_TO(0, 100), "of the wind"),
+    NUMBER("angle", wind_angle, "deg", "0 deg", FROM_TO(-360, 360), "where it blows to, from +x, clockwise seen from above"),
+    WIND_DRAGS,
+};
+SECTION(fw_table_scene_wind, "wind", "wind", SCENE_WIND);
 
 #define FLOE(name, member, unit, fallback, range, meaning) \
     {name, FW_KEY_NUMBER, offsetof(fw_floe, member), unit, fallback, range, NULL, meaning}
@@ -253,11 +325,14 @@ const fw_table_listed fw_tables[] = {
     {"campaign", &fw_table_mix},
     {"campaign", &fw_table_floe_diameter},
     {"campaign", &fw_table_current},
+    {"campaign", &fw_table_tide},
+    {"campaign", &fw_table_wind},
     {"both", &fw_table_contact},
     {"both", &fw_table_water},
     {"both", &fw_table_abrasion},
     {"both", &fw_table_archard},
     {"both", &fw_table_power},
+    {"both", &fw_table_crushing_limit},
     {"campaign", &fw_table_exposure},
     {"campaign", &fw_table_field},
     {"both", &fw_table_ring},
@@ -268,6 +343,8 @@ const fw_table_listed fw_tables[] = {
     {"scene", &fw_table_scene_structure},
     {"scene", &fw_table_scene_ice},
     {"scene", &fw_table_scene_current},
+    {"scene", &fw_table_scene_tide},
+    {"scene", &fw_table_scene_wind},
     {"scene", &fw_table_scene_floe},
 };
 const size_t fw_n_tables = sizeof fw_tables / sizeof fw_tables[0];

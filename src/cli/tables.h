@@ -20,8 +20,17 @@ typedef struct fw_values {
     int      floe_distribution; /* fw_size_law */
     double   floe_exponent, floe_median, floe_sigma;
     int      contact_law;
-    double   stiffness, damping_ratio, friction, slip_damping_ratio;
-    double   water_density, form_drag;
+    double   stiffness, damping_ratio, friction, slip_damping_ratio; /* stiffness < 0: from_pressure */
+    double   pressure, pressure_exponent, unloading; /* unloading, floe_*: < 0: auto */
+    bool     has_flat;
+    double   floe_stiffness, floe_friction;
+    double   water_density, form_drag, skin_drag;
+    bool     has_added_mass, has_deflected_flow;
+    double   wind_speed, wind_angle; /* scenes */
+    double   air_density, wind_skin_drag, wind_form_drag;
+    double   tide_period, tide_minor_ratio, tide_phase; /* phase < 0: auto */
+    double   limit_pressure, limit_exponent;
+    double   effects_tolerance;
     double   window, warm_up, max_evaluations;
     double   strip_width, downstream;
     double   n_arcs;
@@ -52,14 +61,14 @@ typedef struct fw_law_values {
 
 /* Both files. */
 extern const fw_section fw_table_contact, fw_table_water, fw_table_ring, fw_table_abrasion, fw_table_power,
-    fw_table_archard;
+    fw_table_archard, fw_table_crushing_limit;
 /* Campaign files. */
 extern const fw_section fw_table_campaign, fw_table_structure, fw_table_points, fw_table_ice, fw_table_mix,
-    fw_table_floe_diameter, fw_table_current, fw_table_exposure, fw_table_field, fw_table_numerics, fw_table_precision,
+    fw_table_floe_diameter, fw_table_current, fw_table_tide, fw_table_wind, fw_table_exposure, fw_table_field, fw_table_numerics, fw_table_precision,
     fw_table_service;
 /* Scene files. */
 extern const fw_section fw_table_scene, fw_table_scene_structure, fw_table_scene_ice, fw_table_scene_current,
-    fw_table_scene_floe;
+    fw_table_scene_tide, fw_table_scene_wind, fw_table_scene_floe;
 
 /* All of them, in the order of a file: for `floewear keys` and the tests. */
 typedef struct fw_table_listed {

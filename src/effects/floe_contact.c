@@ -51,7 +51,7 @@ const fw_effect fw_effect_floe_contact = {
     .equation = "N = max(0, k d + c d'), c = zeta 2 sqrt(k m_eff), m_eff = mi mj / (mi + mj), d = Ri + Rj - distance",
     .source = "source paper, table 2: k = 2000 kN/m, critical damping",
     .range = "rigid discs: overlaps below a tenth of the smaller radius; beyond, the ledger counts them",
-    .limit = "two equal floes head-on at v, zeta = 1: as one on the wall at v/2 each; restitution e^-2 = 0.135",
+    .limit = "two equal floes head-on, zeta = 1: relative motion as of one of half the mass on the wall, restitution e^-2 = 0.135",
     .needed = "needed where a floe on the structure meets others: more than one in 50 times, in the densest ice, or a scene of two floes",
     .off = "floes pass through each other; depth is smaller (7 % at 5 % ice, 26 % at 20 %)",
     .is_needed = is_needed,

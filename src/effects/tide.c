@@ -13,7 +13,7 @@ static bool is_needed(const fw_model *m, const fw_scene_facts *f, char *reason)
         return false;
     }
     if (t->n_rows == 0) {
-        snprintf(reason, FW_REASON_SIZE, "a window of %.3g h is %.3g deg of the tide's %.4g h, axes 1 : %.3g", m->window / 3600, 360 * m->window / t->period,
+        snprintf(reason, FW_REASON_SIZE, "a window of %.3g h is %.3g deg of the tide's %.4g h, minor over major axis %.3g", m->window / 3600, 360 * m->window / t->period,
                  t->period / 3600, t->minor_ratio);
         return true;
     }
@@ -51,12 +51,12 @@ const fw_effect fw_effect_tide = {
     .name = "tide",
     .bit = FW_EFFECT_TIDE,
     .does = "the current changes its speed and direction within a window, and ice comes in from other sides",
-    .equation = "u(t) ~ (cos phi, r sin phi), phi = phase + 2 pi (t - middle) / period, turned and scaled to the current of the window's middle; or a table",
+    .equation = "u(t) = U (cos phi, r sin phi), phi = phase + 2 pi (t - middle of the window) / period; or a table of speed over U and turn",
     .source = "a tidal ellipse of one constituent, M2: 12.42 h (Pugh, Tides, Surges and Mean Sea-Level)",
     .range = "the same current everywhere at an instant; minor over major axis -1 to 1, negative turns clockwise",
     .limit = "a period much longer than the window: the steady current; a tide to and fro through a whole period: no way made",
     .needed = "needed where current.tide or current.course is given",
-    .off = "the current of the window's middle holds throughout",
+    .off = "the current is the tide's largest throughout",
     .is_needed = is_needed,
     .refuse = refuse,
 };

@@ -62,6 +62,7 @@ fw_status fw_realise_excerpt(const fw_model *model, const fw_scenario *sc, doubl
     at.speed = fmax(at.speed, FW_SLOWEST);
     fw_status s = fw_window_open(&r, model, &at, m);
     *out = (fw_scene){.model = *model, .speed = at.speed, .duration = duration};
+    out->model.tide.rows = NULL, out->model.tide.n_rows = 0; /* the campaign's own */
     /* By the way of the run itself, which has all floes stand at the window's start: its steps are cut there. */
     double warm_up = fw_accuracy_warm_up(model, at.speed);
     if (s == FW_OK && warm_up < t) s = fw_window_go(&r, warm_up, t, tick, m);

@@ -58,6 +58,18 @@ fw_status fw_model_check(const fw_model *m, fw_msg *msg)
     NEED(is_in(m->damping_ratio, 0, 100), "damping ratio %g: wanted 0 to 100", m->damping_ratio);
     NEED(is_in(m->friction, 0, 10), "friction %g: wanted 0 to 10", m->friction);
     NEED(is_in(m->slip_damping_ratio, 0, 100), "slip damping ratio %g: wanted 0 to 100", m->slip_damping_ratio);
+    NEED(is_in(m->skin_drag, 0, 1), "skin drag %g: wanted 0 to 1", m->skin_drag);
+    NEED(is_in(m->floe_stiffness, 1e3, 1e12), "stiffness between floes %g N/m: wanted 1e3 to 1e12", m->floe_stiffness);
+    NEED(is_in(m->floe_friction, 0, 10), "friction between floes %g: wanted 0 to 10", m->floe_friction);
+    NEED(is_in(m->wind.density, 0, 10) && is_in(m->wind.skin_drag, 0, 1) && is_in(m->wind.form_drag, 0, 100),
+         "wind: air density %g kg/m3, skin drag %g, form drag %g: wanted 0 to 10, 1, 100", m->wind.density, m->wind.skin_drag, m->wind.form_drag);
+    NEED(m->tide.n_rows ? m->tide.rows && m->tide.n_rows <= FW_MAX_COURSE : is_in(m->tide.period, 60, 1e9) && is_in(m->tide.minor_ratio, -1, 1),
+         "tide: %zu rows, period %g s, minor ratio %g: wanted at most %d rows, or 60 to 1e9 s and -1 to 1", m->tide.n_rows, m->tide.period,
+         m->tide.minor_ratio, (int)FW_MAX_COURSE);
+    NEED(is_in(m->crushing_limit.pressure, 1e3, 1e9) && is_in(m->crushing_limit.exponent, 0, 0.99),
+         "crushing limit %g Pa, exponent %g: wanted 1e3 to 1e9 and 0 to 0.99", m->crushing_limit.pressure, m->crushing_limit.exponent);
+    NEED(is_in(m->crush.law.pressure, 1e3, 1e9) && is_in(m->crush.law.exponent, 0, 0.99),
+         "crushing pressure %g Pa, exponent %g: wanted 1e3 to 1e9 and 0 to 0.99", m->crush.law.pressure, m->crush.law.exponent);
     NEED(m->n_laws >= 1 && m->n_laws <= FW_MAX_LAWS, "%zu abrasion laws: wanted 1 to %d", m->n_laws, (int)FW_MAX_LAWS);
     for (size_t i = 0; i < m->n_laws; i++)
         NEED(m->laws[i].exponent > 0 && m->laws[i].exponent < 2,
@@ -94,6 +106,8 @@ void fw_site_free(fw_site *s)
     fw_distribution_free(&s->concentration);
     fw_distribution_free(&s->direction);
     fw_distribution_free(&s->temperature);
+    fw_distribution_free(&s->wind_speed);
+    fw_distribution_free(&s->wind_angle);
     for (size_t i = 0; i < s->n_cells; i++) fw_distribution_free(&s->cells[i].direction);
     free(s->cells);
     memset(s, 0, sizeof *s);

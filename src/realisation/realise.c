@@ -16,6 +16,7 @@ static void describe(fw_record *rec, const fw_window_run *r, const fw_scenario *
     rec->speed = sc->speed;
     rec->mix = sc->mix;
     rec->cell = sc->cell;
+    rec->wind_speed = sc->wind_speed, rec->wind_angle = sc->wind_angle, rec->tide_phase = sc->tide_phase;
     rec->window = r->model->window;
     rec->warm_up = warm_up;
     if (!r->ice.field) return;

@@ -102,6 +102,7 @@ static void fill(const fw_scene *scene, const fw_world *w, fw_wear *wear, fw_sce
     fw_wear_finish(wear);
     fw_outcome_fill(r, w, wear, scene->duration);
     r->speed = scene->speed;
+    r->wind_speed = scene->wind_speed, r->wind_angle = scene->wind_angle, r->tide_phase = scene->tide_phase;
     r->force_evaluations += evaluations, r->steps += steps;
     const fw_wear_sums *sum = &wear->sums[0];
     double              rate = fw_abrasion_rate(&scene->model.laws[0], scene->temperature),
@@ -180,8 +181,9 @@ fw_status fw_scene_run(const fw_scene *scene, const fw_tick *tick, const fw_fram
 void fw_scene_free(fw_scene *s)
 {
     free(s->floes);
-    s->floes = NULL;
-    s->n_floes = 0;
+    free(s->model.tide.rows);
+    s->floes = NULL, s->model.tide.rows = NULL;
+    s->n_floes = s->model.tide.n_rows = 0;
 }
 
 void fw_scene_result_free(fw_scene_result *r)

@@ -10,7 +10,7 @@
 #include "base/keys.h"
 
 typedef struct boat {
-    double   length, speed, rest;
+    double   length, speed, rest, draught;
     uint64_t crew;
     bool     has_sail;
     int      hull;
@@ -26,6 +26,7 @@ static const fw_key BOAT[] = {
     {"sail", FW_KEY_FLAG, AT(has_sail), NULL, "off", 0, 0, false, NULL, "carries one"},
     {"hull", FW_KEY_CHOICE, AT(hull), NULL, "wood", 0, 0, false, "steel|wood|fibre", "material"},
     {"name", FW_KEY_TEXT, AT(name), NULL, "", 0, 0, false, NULL, "on the bow"},
+    {"draught", FW_KEY_AUTO, AT(draught), "m", "measured", 0.1, 10, false, "measured", "below the waterline"},
     {"ports", FW_KEY_SHAPED, 0, NULL, "", 0, 0, false, "list of names", "it calls at"},
 };
 static const fw_section SECTION = {"boat", "a boat", sizeof BOAT / sizeof BOAT[0], BOAT};
@@ -49,7 +50,7 @@ static void defaults_and_values(void **state)
     fw_msg m;
 
     assert_int_equal(fw_keys_defaults(&SECTION, *state, &b, &m), FW_OK);
-    assert_true(b.length == 5 && b.rest == -1 && b.crew == 2 && !b.has_sail && b.hull == 1);
+    assert_true(b.length == 5 && b.rest == -1 && b.draught == -1 && b.crew == 2 && !b.has_sail && b.hull == 1);
     assert_int_equal(read(state, "length", "1200 cm", &b, &m), FW_OK);
     assert_int_equal(read(state, "rest", "2 min", &b, &m), FW_OK);
     assert_int_equal(read(state, "crew", "12", &b, &m), FW_OK);
@@ -71,6 +72,8 @@ static void refusals_leave_the_value(void **state)
         {"top_speed", "-1 m/s"},
         {"rest", "-1 s"},
         {"rest", "2 h"},
+        {"draught", "auto"},
+        {"draught", "-1 m"},
         {"crew", "0"},
         {"crew", "13"},
         {"crew", "2.5"},
@@ -119,6 +122,8 @@ static void printed_lines_read_back(void **state)
     assert_true(c.length == b.length);
     fw_keys_print(&SECTION, &BOAT[2], &b, line, sizeof line);
     assert_string_equal(line, "boat.rest = auto\n");
+    fw_keys_print(&SECTION, &BOAT[7], &b, line, sizeof line);
+    assert_string_equal(line, "boat.draught = measured\n"); /* a word of its own */
     fw_keys_print(&SECTION, &BOAT[3], &b, line, sizeof line);
     assert_string_equal(line, "boat.crew = 2\n");
     fw_keys_print(&SECTION, &BOAT[5], &b, line, sizeof line);

@@ -61,6 +61,46 @@ static void test_quantities_have_their_own_numbers(void **state)
     fw_campaign_free(&d);
 }
 
+/* Wind and tide draw from streams of their own: switched on they leave the rest alone, and each other. Expected: uniform angles clockwise on
+ * [0, 90] deg are anticlockwise on [-pi/2, 0], mean -pi/4; phases even over 2 pi, mean pi. */
+static void test_wind_and_tide(void **state)
+{
+    fw_campaign  c = campaign(7), d = campaign(7);
+    fw_scenario  a, b;
+    double       angle = 0, phase = 0, product = 0, pi = acos(-1);
+    const double sd_angle = pi / 2 / sqrt(12), sd_phase = 2 * pi / sqrt(12);
+
+    (void)state;
+    d.model.effects |= FW_EFFECT_WIND | FW_EFFECT_TIDE;
+    d.model.tide = (fw_tide){.period = 44712, .phase = NAN};
+    fw_distribution_constant(&d.site.wind_speed, 8);
+    d.site.wind_angle = (fw_distribution){.kind = FW_DIST_UNIFORM, .b = 90, .low = -INFINITY, .high = INFINITY};
+    for (uint64_t i = 0; i < N; i++) {
+        fw_campaign_scenario(&c, i, &a);
+        fw_campaign_scenario(&d, i, &b);
+        assert_true(a.wind_speed == 0 && a.wind_angle == 0 && a.tide_phase == 0);
+        assert_true(b.wind_speed == 8 && b.wind_angle <= 0 && b.wind_angle >= -pi / 2 && b.tide_phase > 0 && b.tide_phase < 2 * pi);
+        assert_true(a.concentration == b.concentration && a.speed == b.speed && a.mix == b.mix);
+        angle += b.wind_angle / N, phase += b.tide_phase / N;
+        product += (b.wind_angle + pi / 4) * (b.tide_phase - pi) / N;
+        if (i < 20) {
+            double was = b.wind_angle;
+            d.model.effects &= ~(uint32_t)FW_EFFECT_TIDE;
+            fw_campaign_scenario(&d, i, &b);
+            assert_true(b.wind_angle == was && b.tide_phase == 0);
+            d.model.effects |= FW_EFFECT_TIDE;
+        }
+    }
+    assert_true(fabs(angle + pi / 4) < 5 * sd_angle / sqrt(N));
+    assert_true(fabs(phase - pi) < 5 * sd_phase / sqrt(N));
+    assert_true(fabs(product) < 5 * sd_angle * sd_phase / sqrt(N));
+    d.model.tide.phase = 1;
+    fw_campaign_scenario(&d, 3, &b);
+    assert_true(b.tide_phase == 1);
+    fw_campaign_free(&c);
+    fw_campaign_free(&d);
+}
+
 /* Means and correlations within five standard errors; uniform on [a, b]: mean (a + b)/2, variance (b - a)^2/12. */
 static void test_sampled_means(void **state)
 {
@@ -153,6 +193,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_is_pure),         cmocka_unit_test(test_quantities_have_their_own_numbers),
+        cmocka_unit_test(test_wind_and_tide),
         cmocka_unit_test(test_sampled_means),   cmocka_unit_test(test_lognormal_speed),
         cmocka_unit_test(test_joint_table),     cmocka_unit_test(test_free_twice),
     };
