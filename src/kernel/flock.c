@@ -73,7 +73,11 @@ fw_status fw_flock_fall_apart(fw_kernel *k, fw_cluster *c, size_t *first, fw_msg
     bool is_whole = true, may_be_alone = !fw_has_flight(&k->traffic.setup);
     for (size_t i = 0; i < c->n_members; i++)
         is_whole &= find_root(k->root, (int32_t)i) == 0 && (c->members[i].n_pairs > 0 || (may_be_alone && c->n_members == 1));
-    if (is_whole) return FW_OK;
+    if (is_whole) {
+        /* The closed forms of a lone contact leave no accelerations to go on with. */
+        if (c->n_pairs == 0) fw_cluster_restart(c, &k->traffic.books);
+        return FW_OK;
+    }
     for (size_t r = 0; r < c->n_members; r++) {
         if (k->root[r] != (int32_t)r) continue;
         if (c->members[r].n_pairs == 0 && !may_be_alone) {
