@@ -5,6 +5,7 @@
  * when it is committed. */
 #include "geometry/ring.h"
 #include "kernel/cluster.h"
+#include "kernel/forces.h"
 
 bool fw_books_overlap(fw_ledger *l, double small, double depth)
 {
@@ -81,21 +82,17 @@ void fw_books_weigh(fw_cluster *c, const fw_setup *set, double h)
     *to = (fw_step_books){0};
     for (size_t i = 0; i < c->n_members; i++) {
         fw_member *m = &c->members[i];
-        double     j[3] = {0, 0, 0}, work = 0, slows = 0;
+        double     j[2] = {0, 0}, work = 0;
         for (size_t s = 0; s < me->n_stages; s++) {
             double hb = h * me->b[s];
             j[0] += hb * m->drag[s][0], j[1] += hb * m->drag[s][1];
             work += hb * (m->drag[s][0] * m->k[s][0] + m->drag[s][1] * m->k[s][1]);
         }
-        if (set->has_spin_drag)
-            for (size_t s = 0; s < me->n_stages; s++) {
-                j[2] += h * me->b[s] * m->drag[s][2];
-                slows += h * me->b[s] * m->drag[s][2] * m->k[s][2];
-            }
-        to->drag_work += work * m->mass + slows * m->inertia;
-        m->gained[0] = j[0], m->gained[1] = j[1], m->gained[2] = j[2];
-        m->shoved = fw_length(j[0], j[1]), m->twisted = fabs(j[2]);
+        to->drag_work += work * m->mass;
+        m->gained[0] = j[0], m->gained[1] = j[1], m->gained[2] = 0;
+        m->shoved = fw_length(j[0], j[1]), m->twisted = 0;
     }
+    if (fw_has_spin_drag(set)) fw_forces_weigh(c, set, h);
     c->is_weighed = true;
     for (size_t k = 0; k < c->n_pairs; k++) weigh_pair(c, me, &c->pairs[k], h, to);
     for (size_t i = 0; i < c->n_members; i++) {

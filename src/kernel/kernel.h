@@ -30,6 +30,7 @@ typedef struct fw_setup {
     fw_flow          flow;
     fw_contact_law   contact, floe_contact; /* with the structure; between floes */
     bool             has_floe_contact, has_drag, has_rotation, has_friction;
+    bool             has_body_forces; /* any of the next three */
     bool             has_wind, has_deflection, has_spin_drag, has_added_mass;
     double           ice_density, water_density; /* [kg/m3] of woken floes and what they swim in */
     double           drag_per_area; /* 1/2 rho_w Cf [kg/m3]: times D h gives fw_body.drag; 0 without drag */
@@ -58,6 +59,17 @@ typedef struct fw_setup {
     fw_status (*attend)(void *self);
     void *attend_self;
 } fw_setup;
+
+/* Is an effect on? A program built with FW_OPTIONAL_EFFECTS = 0 has none of these, and no code for them: to be measured against
+ * (tests/valgrind/test_nothing.py). */
+#ifndef FW_OPTIONAL_EFFECTS
+#define FW_OPTIONAL_EFFECTS 1
+#endif
+static inline bool fw_has_body_forces(const fw_setup *s) { return FW_OPTIONAL_EFFECTS && s->has_body_forces; }
+static inline bool fw_has_wind(const fw_setup *s) { return FW_OPTIONAL_EFFECTS && s->has_wind; }
+static inline bool fw_has_deflection(const fw_setup *s) { return FW_OPTIONAL_EFFECTS && s->has_deflection; }
+static inline bool fw_has_spin_drag(const fw_setup *s) { return FW_OPTIONAL_EFFECTS && s->has_spin_drag; }
+static inline bool fw_has_added_mass(const fw_setup *s) { return FW_OPTIONAL_EFFECTS && s->has_added_mass; }
 
 typedef struct fw_kernel fw_kernel;
 

@@ -98,7 +98,7 @@ static void solve(fw_lone *L)
 
 /* Angle' = p/r + a s/r, and s may have decayed within a tenth of the step: with S its integral a s/r = (a S/r)' - a S u/r^2, so
  * orbit = p/r - a S u/r^2 is slow again. */
-static inline void force(const fw_lone *L, const fw_setup *set, const fw_member *m, const fw_lone_state *y, double *push,
+static inline __attribute__((always_inline)) void force(const fw_lone *L, const fw_setup *set, const fw_member *m, const fw_lone_state *y, double *push,
                          double *drive, double *orbit, double *twist)
 {
     double nx, ny, out, along, inv = y->per_reach, w = y->along * inv;
@@ -106,7 +106,7 @@ static inline void force(const fw_lone *L, const fw_setup *set, const fw_member 
     drag_at(set, m, nx, ny, y, &out, &along);
     *push = -y->along * w - out, *drive = along + y->rate * w;
     *orbit = inv * (y->along - L->share * (y->slip + y->rate * y->slid * inv));
-    if (!L->has_twist) return;
+    if (!FW_OPTIONAL_EFFECTS || !L->has_twist) return;
     *twist = spin_drag_at(set, m, nx, ny, y);
     *drive -= *twist;
 }
@@ -146,7 +146,7 @@ static void start(fw_lone *L, const fw_cluster *c, const fw_setup *set)
     L->carried = o->along - L->share * o->slip;
     L->half_damping = 0.5 * p->law.c * m->own_inv_mass, L->omega2 = p->law.k * m->own_inv_mass;
     L->split = L->half_damping * L->half_damping - L->omega2;
-    L->has_twist = set->has_spin_drag && m->inertia > 0;
+    L->has_twist = fw_has_spin_drag(set) && m->inertia > 0;
     L->relaxation = p->law.ct * w_slip, L->per_relaxation = 1 / L->relaxation, L->kick = p->mu / L->share;
 }
 
@@ -238,7 +238,7 @@ static double attempt(fw_cluster *c, const fw_books *b, double h, double *event)
     expect(L, L->before.push, L->by.push);
     expect(L, L->before.drive, L->by.drive);
     expect(L, L->before.orbit, L->by.orbit);
-    if (L->has_twist) expect(L, L->before.twist, L->by.twist);
+    if (FW_OPTIONAL_EFFECTS && L->has_twist) expect(L, L->before.twist, L->by.twist);
     L->is_short = fw_larger(p->law.omega, 2 * L->half_damping) * h < SHORT;
     L->is_short_slip = L->relaxation * h < SHORT;
     decay middle = decay_at(L, 0.5 * h), end = later(L, middle, middle);
@@ -252,7 +252,7 @@ static double attempt(fw_cluster *c, const fw_books *b, double h, double *event)
         through(g, L->by.push);
         through(f, L->by.drive);
         through(o, L->by.orbit);
-        if (L->has_twist) through(q, L->by.twist);
+        if (FW_OPTIONAL_EFFECTS && L->has_twist) through(q, L->by.twist);
         solve(L);
         last = at[2];
         state_at(L, &p->law, h, end, &at[2]);

@@ -77,7 +77,7 @@ static inline void creep_at(const fw_lone *L, const double *P, double s, double 
     *slid = (driven - (*slip - s)) * L->per_relaxation;
 }
 
-static inline void state_at(const fw_lone *L, const fw_contact_constants *law, double t, decay w, fw_lone_state *y)
+static inline __attribute__((always_inline)) void state_at(const fw_lone *L, const fw_contact_constants *law, double t, decay w, fw_lone_state *y)
 {
     const fw_lone_state *o = &L->from;
     double               h = L->span, x = t * L->per_span;
@@ -97,7 +97,7 @@ static inline void state_at(const fw_lone *L, const fw_contact_constants *law, d
         }
     }
     y->along = L->carried + (1 - L->share) * driven + L->share * y->slip;
-    if (L->has_twist) y->along += h * integral(L->by.twist, x);
+    if (FW_OPTIONAL_EFFECTS && L->has_twist) y->along += h * integral(L->by.twist, x);
     y->reach = o->reach - (y->depth - o->depth);
     y->per_reach = 1 / y->reach;
     y->turn = h * integral(L->by.orbit, x) + L->share * y->slid * y->per_reach;
@@ -121,11 +121,11 @@ static inline void normal_at(const fw_lone *L, double turn, double *nx, double *
 static inline void drag_at(const fw_setup *set, const fw_member *m, double nx, double ny, const fw_lone_state *y, double *out,
                            double *along)
 {
-    double ux, uy;
-    fw_water_at(set, y->reach * nx, y->reach * ny, &ux, &uy);
+    double ux = set->flow.ux, uy = set->flow.uy;
+    if (fw_has_deflection(set)) fw_water_at(set, y->reach * nx, y->reach * ny, &ux, &uy);
     double wn = ux * nx + uy * ny + y->rate, wt = uy * nx - ux * ny - y->along, rate = m->drag_per_mass * sqrt(wn * wn + wt * wt);
     *out = rate * wn, *along = rate * wt;
-    if (!set->has_wind) return;
+    if (!fw_has_wind(set)) return;
     double an = set->flow.wind_x * nx + set->flow.wind_y * ny + y->rate, at = set->flow.wind_y * nx - set->flow.wind_x * ny - y->along;
     double air = m->air_per_mass * sqrt(an * an + at * at);
     *out += air * an, *along += air * at;

@@ -35,11 +35,11 @@ static inline void forces(fw_plain *p, fw_world *w, fw_wear *wear, double weight
         fw_water_at(s, b->x, b->y, &ux, &uy);
         double rx = ux - b->vx, ry = uy - b->vy, speed = sqrt(rx * rx + ry * ry), drag = b->drag * speed;
         f[3 * i] = drag * rx, f[3 * i + 1] = drag * ry, f[3 * i + 2] = 0;
-        if (s->has_wind) {
+        if (fw_has_wind(s)) {
             double air = fw_wind_rate(s, b->air, b->vx, b->vy);
             f[3 * i] += air * (s->flow.wind_x - b->vx), f[3 * i + 1] += air * (s->flow.wind_y - b->vy);
         }
-        if (s->has_spin_drag) f[3 * i + 2] = -fw_skin_drag_torque_rate(b->spin_drag, b->radius, speed, b->spin) * b->spin;
+        if (fw_has_spin_drag(s)) f[3 * i + 2] = -fw_skin_drag_torque_rate(b->spin_drag, b->radius, speed, b->spin) * b->spin;
     }
     for (size_t q = 0; q < p->neighbours.n_near; q++) {
         fw_near          e = p->neighbours.near[q];

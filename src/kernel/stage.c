@@ -11,12 +11,6 @@
 
 enum { MAX_SWEEPS = 400 };
 
-static inline double relative_speed(const fw_member *m, double vx, double vy)
-{
-    double rx = m->ux - vx, ry = m->uy - vy;
-    return sqrt(rx * rx + ry * ry);
-}
-
 /* Normal and overlap of two discs whose centres are (dx, dy) apart. */
 static inline void geometry(double dx, double dy, double reach, double *nx, double *ny, double *depth)
 {
@@ -64,17 +58,13 @@ void fw_stage_start(fw_cluster *c, const fw_books *books)
     for (size_t i = 0; i < c->n_members; i++) {
         fw_member    *m = &c->members[i];
         const double *v = m->y0 + FW_VX;
-        fw_water_at(set, m->y0[FW_X], m->y0[FW_Y], &m->ux, &m->uy);
-        double        speed = relative_speed(m, v[0], v[1]), rate = m->drag_per_mass * speed;
-        m->drag[0][0] = rate * (m->ux - v[0]), m->drag[0][1] = rate * (m->uy - v[1]), m->drag[0][2] = 0;
-        if (set->has_wind) {
-            double air = fw_wind_rate(set, m->air_per_mass, v[0], v[1]);
-            m->drag[0][0] += air * (set->flow.wind_x - v[0]), m->drag[0][1] += air * (set->flow.wind_y - v[1]);
-        }
-        if (set->has_spin_drag) m->drag[0][2] = -fw_skin_drag_torque_rate(m->spin_per_inertia, m->radius, speed, v[2]) * v[2];
+        m->ux = set->flow.ux, m->uy = set->flow.uy;
+        double rate = m->drag_per_mass * fw_relative_speed(m, v[0], v[1]);
+        m->drag[0][0] = rate * (m->ux - v[0]), m->drag[0][1] = rate * (m->uy - v[1]);
         for (int q = 0; q < 4; q++) m->k[0][q] = v[q];
-        for (int q = 0; q < 3; q++) m->k[0][FW_VX + q] = m->drag[0][q];
+        m->k[0][FW_VX] = m->drag[0][0], m->k[0][FW_VY] = m->drag[0][1], m->k[0][FW_SPIN] = 0;
     }
+    if (fw_has_body_forces(set)) fw_forces_start(c, set);
     for (size_t k = 0; k < c->n_pairs; k++) {
         fw_pair      *p = &c->pairs[k];
         fw_member    *a = p->ma, *b = p->mb;
@@ -93,25 +83,6 @@ void fw_stage_start(fw_cluster *c, const fw_books *books)
     books->world->ledger.force_evaluations += (double)c->n_pairs;
 }
 
-/* resistance x V without contact impulses */
-static inline void known_part(const fw_setup *set, const fw_member *m, double hg, double *x, double *y)
-{
-    *x = m->r[FW_VX] + hg * m->drag_rate * m->ux, *y = m->r[FW_VY] + hg * m->drag_rate * m->uy;
-    if (set->has_wind) *x += hg * m->air_rate * set->flow.wind_x, *y += hg * m->air_rate * set->flow.wind_y;
-}
-
-/* Velocity without contact impulses, drag implicit with a given |u - v|: V = (vr + hg K u) / (1 + hg K); with wind likewise of both. */
-static inline void free_velocity(const fw_setup *set, fw_member *m, double hg, double speed)
-{
-    m->drag_rate = m->drag_per_mass * speed, m->drag_speed = speed;
-    m->resistance = 1 + hg * (set->has_wind ? m->drag_rate + m->air_rate : m->drag_rate);
-    double f = 1 / m->resistance, x, y;
-    known_part(set, m, hg, &x, &y);
-    m->V[0] = x * f, m->V[1] = y * f;
-    m->ease = f;
-    m->inv_mass = m->own_inv_mass * f;
-}
-
 static inline __attribute__((always_inline)) void predict_stage(fw_cluster *c, const fw_setup *set, size_t s, double h)
 {
     const fw_method *me = set->method;
@@ -126,16 +97,10 @@ static inline __attribute__((always_inline)) void predict_stage(fw_cluster *c, c
         for (int q = 0; q < 8; q++) m->r[q] = r[q];
         for (int q = 0; q < 4; q++) m->U[q] = m->k[s - 1][q] + ahead * m->k[s - 1][4 + q];
         m->X = r[FW_X] + hg * m->U[0], m->Y = r[FW_Y] + hg * m->U[1];
-        fw_water_at(set, m->X, m->Y, &m->ux, &m->uy);
-        double speed = relative_speed(m, m->U[0], m->U[1]);
-        if (set->has_wind) m->air_rate = fw_wind_rate(set, m->air_per_mass, m->U[0], m->U[1]);
-        free_velocity(set, m, hg, speed);
+        fw_free_velocity(set, m, hg, fw_relative_speed(m, m->U[0], m->U[1]), false);
         m->V[2] = r[FW_SPIN];
-        if (!set->has_spin_drag) continue;
-        /* at the predicted state: slow, and third order all the same */
-        m->spin_slows = -fw_skin_drag_torque_rate(m->spin_per_inertia, m->radius, speed, m->U[2]) * m->U[2];
-        m->V[2] += hg * m->spin_slows;
     }
+    if (fw_has_body_forces(set)) fw_forces_predict(c, set, hg);
 }
 
 /* Loops of two and three that are known beforehand. */
@@ -208,7 +173,7 @@ static void settle_structure(fw_cluster *c)
 }
 
 /* Drag follows the solved velocity; impulses stay. Returns the largest change of a velocity that was worth it. */
-static double renew_drag(fw_cluster *c, const fw_setup *set, double hg, double enough)
+static inline double renew_drag_in(fw_cluster *c, const fw_setup *set, double hg, double enough, bool is_blown)
 {
     double largest = 0;
     for (size_t i = 0; i < c->n_members; i++) {
@@ -218,9 +183,9 @@ static double renew_drag(fw_cluster *c, const fw_setup *set, double hg, double e
         double change = 0.5 * hg * m->drag_per_mass * fabs(r2 - was * was) * m->ease;
         if (!(change > enough)) continue;
         double x, y;
-        known_part(set, m, hg, &x, &y);
+        fw_known_part(set, m, hg, is_blown, &x, &y);
         double jx = m->V[0] * m->resistance - x, jy = m->V[1] * m->resistance - y; /* what the impulses gave */
-        free_velocity(set, m, hg, sqrt(r2));
+        fw_free_velocity(set, m, hg, sqrt(r2), is_blown);
         m->V[0] += jx * m->ease, m->V[1] += jy * m->ease;
         largest = fw_larger(largest, change);
     }
@@ -233,6 +198,11 @@ static double renew_drag(fw_cluster *c, const fw_setup *set, double hg, double e
             prepare(p, hg);
         }
     return largest;
+}
+
+static double renew_drag(fw_cluster *c, const fw_setup *set, double hg, double enough)
+{
+    return fw_has_wind(set) ? renew_drag_in(c, set, hg, enough, true) : renew_drag_in(c, set, hg, enough, false);
 }
 
 bool fw_stage_solve(fw_cluster *c, const fw_books *books, size_t s, double h)
@@ -258,10 +228,8 @@ bool fw_stage_solve(fw_cluster *c, const fw_books *books, size_t s, double h)
         fw_member *m = &c->members[i];
         for (int q = 0; q < 4; q++) m->k[s][q] = m->V[q], m->k[s][4 + q] = (m->V[q] - m->r[4 + q]) * inv;
         m->drag[s][0] = m->drag_rate * (m->ux - m->V[0]), m->drag[s][1] = m->drag_rate * (m->uy - m->V[1]);
-        if (set->has_wind)
-            m->drag[s][0] += m->air_rate * (set->flow.wind_x - m->V[0]), m->drag[s][1] += m->air_rate * (set->flow.wind_y - m->V[1]);
-        if (set->has_spin_drag) m->drag[s][2] = m->spin_slows;
     }
+    if (fw_has_body_forces(set)) fw_forces_end(c, set, s);
     for (size_t k = 0; k < c->n_pairs; k++) {
         fw_pair *p = &c->pairs[k];
         p->normal[s] = p->push * inv;

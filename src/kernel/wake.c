@@ -11,7 +11,7 @@ static double own_mass(const fw_setup *s, double radius, double thickness) { ret
 
 static double added_share(const fw_setup *s, double radius, double thickness)
 {
-    return s->has_added_mass ? fw_added_mass_share(radius, thickness * fw_smaller(1, s->ice_density / s->water_density)) : 0;
+    return fw_has_added_mass(s) ? fw_added_mass_share(radius, thickness * fw_smaller(1, s->ice_density / s->water_density)) : 0;
 }
 
 double fw_kernel_floe_mass(const fw_setup *s, double radius, double thickness)
@@ -28,14 +28,14 @@ fw_body fw_kernel_floe(const fw_setup *s, double radius, double thickness)
                      .inv_mass = 1 / fw_kernel_floe_mass(s, radius, thickness),
                      .inv_inertia = s->has_rotation ? 2 / (own_mass(s, radius, thickness) * radius * radius) : 0,
                      .drag = s->drag_per_area * 2 * radius * thickness + skin,
-                     .air = s->has_wind ? fw_wind_drag(&s->wind, s->ice_density, s->water_density, radius, thickness) : 0,
-                     .spin_drag = s->has_spin_drag ? skin : 0};
+                     .air = fw_has_wind(s) ? fw_wind_drag(&s->wind, s->ice_density, s->water_density, radius, thickness) : 0,
+                     .spin_drag = fw_has_spin_drag(s) ? skin : 0};
 }
 
 void fw_kernel_free_drift(const fw_setup *s, const fw_body *b, double x, double y, double *vx, double *vy)
 {
     fw_water_at(s, x, y, vx, vy);
-    if (!s->has_wind) return;
+    if (!fw_has_wind(s)) return;
     double rx = s->flow.wind_x - *vx, ry = s->flow.wind_y - *vy, speed = fw_length(rx, ry);
     double share = speed > 0 ? fw_wind_free_drift(b->air, b->drag, speed) / speed : 0;
     *vx += share * rx, *vy += share * ry;
@@ -46,7 +46,7 @@ fw_status fw_wake(const fw_setup *s, fw_world *w, size_t block, size_t row, fw_m
     fw_block *b = &w->blocks[block];
     fw_body   body = fw_kernel_floe(s, b->radius[row], b->thickness[row]);
     body.x = b->x[row] + w->drift_x, body.y = b->y[row] + w->drift_y;
-    if (s->has_wind || s->has_deflection)
+    if (fw_has_wind(s) || fw_has_deflection(s))
         fw_kernel_free_drift(s, &body, body.x, body.y, &body.vx, &body.vy);
     else
         body.vx = s->flow.ice_x, body.vy = s->flow.ice_y;

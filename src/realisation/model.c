@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "floewear/realisation.h"
+#include "kernel/kernel.h"
 #include "physics/abrasion.h"
 #include "physics/unbreakable.h"
 
@@ -70,6 +71,8 @@ fw_status fw_model_check(const fw_model *m, fw_msg *msg)
          "crushing limit %g Pa, exponent %g: wanted 1e3 to 1e9 and 0 to 0.99", m->crushing_limit.pressure, m->crushing_limit.exponent);
     NEED(is_in(m->crush.law.pressure, 1e3, 1e9) && is_in(m->crush.law.exponent, 0, 0.99),
          "crushing pressure %g Pa, exponent %g: wanted 1e3 to 1e9 and 0 to 0.99", m->crush.law.pressure, m->crush.law.exponent);
+    FW_CHECK(FW_OPTIONAL_EFFECTS || !(m->effects & ~(uint32_t)FW_EFFECTS_CORE), msg, FW_E_UNSUPPORTED,
+             "this program was built without the optional effects (FLOEWEAR_OPTIONAL_EFFECTS)");
     NEED(m->n_laws >= 1 && m->n_laws <= FW_MAX_LAWS, "%zu abrasion laws: wanted 1 to %d", m->n_laws, (int)FW_MAX_LAWS);
     for (size_t i = 0; i < m->n_laws; i++)
         NEED(m->laws[i].exponent > 0 && m->laws[i].exponent < 2,
