@@ -39,7 +39,7 @@ const fw_effect fw_effect_skin_drag = {
     .does = "the water drags floes by their lower faces, and brakes their spin",
     .equation = "F = 1/2 rho_w Cs pi R^2 |u - v| (u - v), torque -1/2 rho_w Cs pi R^4 w sqrt((3 V / 4)^2 + (2 R w / 5)^2), V = |u - v|",
     .source = "Leppaeranta, The Drift of Sea Ice (2011): Cs = 0.0055 under ice",
-    .range = "quadratic stress on a flat face; what spin does to the force is left out",
+    .range = "quadratic stress on a flat face; torque 0 to 6 % above the integral over it; what spin adds to the force is left out (36 % at R w = V)",
     .limit = "slow spin (3/8) pi rho_w Cs R^4 V w, spin alone (pi/5) rho_w Cs R^5 w^2; free flight as under form drag",
     .needed = "needed where water.skin_drag is given, or where no form drag carries floes on",
     .off = "the water acts on a floe's side alone, and spin is not braked",
