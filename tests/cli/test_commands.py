@@ -119,10 +119,12 @@ class Tables(InFolder):
             self.assertIn(word, keys)
         for command in ("keys", "effects", "laws"):
             self.assertIsInstance(json.loads(call(command, "--json").stdout), dict)
+        effects = call("effects").stdout
         for effect in json.loads(call("effects", "--json").stdout)["effects"]:
             self.assertIsInstance(effect["on"], bool)
-            self.assertTrue(effect["name"] and effect["reason"])
-            self.assertIn(effect["name"], call("effects").stdout)
+            for key in ("name", "reason", "does", "equation", "source", "range", "limit", "off"):
+                self.assertTrue(effect[key])
+                self.assertIn(effect[key], effects)
         for law in json.loads(call("laws", "--json").stdout)["laws"]:
             self.assertTrue(0 < law["exponent"] < 2)
             self.assertIn(law["name"], call("laws").stdout)
@@ -142,6 +144,49 @@ class Plans(InFolder):
     def test_effects_that_are_not_needed(self):
         plan = json.loads(call("plan", HERE / "small.yaml", "--pilot", "0", "--json", "--set", "contact.friction=0").stdout)
         self.assertEqual([e["name"] for e in plan["effects"] if e["on"]], ["floe_contact", "form_drag"])
+
+
+    def test_a_campaign_with_everything(self):
+        everything = SOURCE / "tests/cli/good/effects.yaml"
+        plan = json.loads(call("plan", everything, "--pilot", "0", "--json").stdout)
+        self.assertEqual({e["name"] for e in plan["effects"]}, {e["name"] for e in json.loads(call("effects", "--json").stdout)["effects"]})
+        self.assertEqual([e["name"] for e in plan["effects"] if not e["on"]], [])
+        lines = [line.split()[:2] for line in call("plan", everything, "--pilot", "0", "--set", "effects={wind: off}").stdout.splitlines()]
+        self.assertIn(["effect", "on"], lines)
+        self.assertIn(["wind", "off"], lines)
+        self.assertIn(["tide", "on"], lines)
+
+    def test_why_not_auto(self):
+        plan = json.loads(call("plan", HERE / "small.yaml", "--pilot", "0", "--json", "--set", "effects={skin_drag: on, rotation: off}").stdout)
+        why = {e["name"]: e["reason"] for e in plan["effects"]}
+        self.assertIn("asked for by the file (auto: off, no water.skin_drag", why["skin_drag"])
+        self.assertIn("switched off by the file", why["rotation"])
+
+
+class OffIsAbsent(InFolder):
+    """An effect whose keys stand in the file and that is switched off leaves every number as if there were no such keys."""
+
+    KEYS = {
+        "wind": "wind={speed: {weibull: {scale: 6 m/s, shape: 2}}, angle: 40 deg}",
+        "tide": "current.tide={minor_ratio: 0.5}",
+        "skin_drag": "water.skin_drag=0.01",
+        "added_mass": "water.added_mass=on",
+        "deflected_flow": "water.deflected_flow=on",
+        "crushing_limit": "abrasion.crushing_limit={pressure: 1 MPa}",
+        "ice_on_ice": "contact.floe_friction=0.5",
+    }
+
+    @unittest.skipIf(h5py is None, "needs h5py")
+    def test_to_the_bit(self):
+        self.fetch_results()
+        with h5py.File("made.h5") as f:
+            settings, want = f.attrs["settings"], {k: v[()].tobytes() for k, v in f["realisations"].items() if "host" not in k}
+        for name, key in self.KEYS.items():
+            done = call("run", HERE / "small.yaml", "--quiet", "-o", name, "--set", key, "--set", f"effects={{{name}: off}}")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with h5py.File(f"{name}.h5") as f:
+                self.assertEqual(f.attrs["settings"], settings, name)
+                self.assertEqual({k: v[()].tobytes() for k, v in f["realisations"].items() if "host" not in k}, want, name)
 
 
 class Scenes(InFolder):

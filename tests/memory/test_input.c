@@ -73,7 +73,7 @@ static void campaigns(void **state)
 {
     (void)state;
     static const char *const files[] = {GOOD "minimal.yaml",         GOOD "sketch.yaml",      GOOD "joint.yaml",
-                                        GOOD "joint-thickness.yaml", CAMPAIGNS "raahe.yaml", CAMPAIGNS "ci.yaml"};
+                                        GOOD "joint-thickness.yaml", CAMPAIGNS "raahe.yaml", CAMPAIGNS "ci.yaml", GOOD "effects.yaml"};
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         reading r = {.path = files[i]};
         inject_walk(&(inject_case){
@@ -113,6 +113,8 @@ static void scenes(void **state)
     static const char *const sets[] = {"duration=2 s", "contact.friction=0.2"};
     reading r = {.path = GOOD "scene.yaml"};
     inject_walk(&(inject_case){.name = "scene.yaml", .run = read_scene, .end = end_scene, .self = &r});
+    r = (reading){.path = GOOD "scene-effects.yaml"}; /* with a table of its own */
+    inject_walk(&(inject_case){.name = "scene-effects.yaml", .run = read_scene, .end = end_scene, .self = &r});
     r = (reading){.path = FW_SOURCE_DIR "/tests/cli/commands/scene-raft.yaml", .n_sets = 2, .sets = sets};
     inject_walk(
         &(inject_case){.name = "scene-raft.yaml with --set", .run = read_scene, .end = end_scene, .self = &r});
