@@ -2,7 +2,7 @@
 """Reference solutions of the floe model, independent of floewear (README.md here says what is in the tables).
 
     solve.py check          the tables again: both formulations against each other and against every file
-    solve.py write          extreme_floes.csv and extreme_multi.csv anew
+    solve.py write          extreme_floes.csv, extreme_multi.csv and limited_floes.csv anew
 
 Needs numpy and scipy. Method: DOP853 with error control on a right-hand side that is smooth between events. Every contact has
 a mode (open, loose: overlap without force, pressing; sliding or not; sign of slip) that fixes which branch of each max, min and
@@ -23,6 +23,7 @@ from scipy.special import roots_jacobi
 K, MU, CF, RHO_I, RHO_W, U, RS = 2.0e6, 0.1, 10.0, 900.0, 1025.0, 2.0, 3.7  # zeta = 1, ct = c
 TEMPERATURE, LAW, EXPONENT = -10.0, 0.116, 1.121
 RATE = LAW * abs(TEMPERATURE) ** -EXPONENT * 1e-3  # depth [mm] per slip way [m] and MPa^m
+LIMIT = None  # crushing limit on the pressure that wears: (P0 [MPa], q), P0 (A / 1 m2)^-q
 OPEN, LOOSE, PRESSING = range(3)
 # Per floe: 5 of motion, then what the structure contact adds up
 N_STATE, SUMS = 11, ("J", "Jx", "t_force", "path", "depth", "W")
@@ -47,7 +48,7 @@ class Pair:
         self.a, self.b = a, b
         m = floes[a].m if b == WALL_ID else floes[a].m * floes[b].m / (floes[a].m + floes[b].m)
         self.w, self.c = math.sqrt(K / m), 2 * math.sqrt(K * m)
-        self.mode, self.slide, self.sign, self.is_fresh = OPEN, 0, 1, False
+        self.mode, self.slide, self.sign, self.is_fresh, self.is_capped = OPEN, 0, 1, False, False
 
 
 class Scene:
@@ -93,14 +94,18 @@ class Scene:
             turn += self.floes[p.b].R * SPIN
         return -gap, -(vx * nx + vy * ny), vy * nx - vx * ny - turn, nx, ny
 
+    def chord(self, p, d):
+        """Of the exact lens of two circles."""
+        R = self.floes[p.a].R
+        return math.sqrt(max(0.0, d * (2 * R - d) * (2 * RS - d) * (2 * R + 2 * RS - d))) / (R + RS - d)
+
     def wear_rates(self, p, d, N, slip):
-        """d depth / dt [mm/s] and the same times the chord of the exact lens of two circles."""
-        R, h = self.floes[p.a].R, self.floes[p.a].h
-        r = R + RS - d
-        chord = math.sqrt(max(0.0, d * (2 * R - d) * (2 * RS - d) * (2 * R + 2 * RS - d))) / r
+        """d depth / dt [mm/s] and the same times the chord."""
+        h, chord = self.floes[p.a].h, self.chord(p, d)
         if not (chord > 0 and N > 0):
             return 0.0, 0.0
-        rate = RATE * (N / (chord * h) * 1e-6) ** EXPONENT * p.sign * slip
+        pressure = LIMIT[0] * (chord * h) ** -LIMIT[1] if p.is_capped else N / (chord * h) * 1e-6
+        rate = RATE * pressure**EXPONENT * p.sign * slip
         return rate, rate * chord
 
     def rhs(self, z):
@@ -152,6 +157,9 @@ class Scene:
                 out += [(d, p, self.part), (-N, p, self.press)]
             else:
                 out.append((N, p, self.let_go))
+                if LIMIT and p.b == WALL_ID:
+                    over = N - LIMIT[0] * 1e6 * (self.chord(p, d) * self.floes[p.a].h) ** (1 - LIMIT[1])
+                    out.append((over if p.is_capped else -over, p, self.cross_limit))
                 if p.slide:
                     out.append((p.slide * p.c * slip - MU * N, p, self.stick))
                 else:
@@ -171,6 +179,9 @@ class Scene:
     def turn(self, p):
         p.sign = -p.sign
 
+    def cross_limit(self, p):
+        p.is_capped = not p.is_capped
+
     def let_go(self, p):
         p.mode, p.slide = LOOSE, 0
 
@@ -181,7 +192,7 @@ class Scene:
 
     def press(self, p):
         d, rate, slip, *_ = self.contact(p, self.motions(self.z))
-        p.mode, p.sign = PRESSING, 1 if slip >= 0 else -1
+        p.mode, p.sign, p.is_capped = PRESSING, 1 if slip >= 0 else -1, False
         p.slide = p.sign if p.c * abs(slip) > MU * max(0.0, K * d + p.c * rate) else 0
 
     def touch(self, p):
@@ -192,6 +203,9 @@ class Scene:
         if self.first_touch[p.a] is None:
             self.first_touch[p.a] = self.t
             self.breaks.append((self.t + 2 / p.w, p.a))
+        p.is_capped = LIMIT is not None  # no area yet
+        if self.is_polar:
+            self.z[p.a * N_STATE] = 0.0  # located to 1e-17 m; the first instants under a limit are shorter than that
         self.first_wear(p)
 
     # --- integration ---------------------------------------------------------------------------------------------
@@ -262,26 +276,28 @@ class Scene:
     def first_wear(self, p):
         """Wear of the first piece after a touch. There chord ~ t^(1/2) and sigma ~ t^(-1/2): with t = u^2 both integrands are
         u^(1-m) times a smooth function, so a Gauss-Jacobi rule with that weight is exact to rounding; the motion goes from node to
-        node. A piece must not contain an event: it is tried, and shortened until it has none."""
+        node. Under a limit sigma ~ t^(-q/2). A piece must not contain an event: it is tried, and shortened until it has none."""
         keep = self.t, self.z, self.peak.copy()
-        x, weight = roots_jacobi(14, 0, 1 - EXPONENT)
+        steep = EXPONENT * LIMIT[1] if LIMIT else EXPONENT
+        x, weight = roots_jacobi(14, 0, 1 - steep)
         length = self.first_piece / max(q.w for q in self.pairs)
         p.is_fresh = True
         while True:
-            self.t, self.z, self.peak = keep[0], keep[1], keep[2].copy()
+            self.t, self.z, self.peak = 0.0, keep[1], keep[2].copy()  # time since touch, whose nodes may be 1e-20 s apart
             self.h = 1e-2 * length
             total, is_cut = np.zeros(2), False
             for u, share in zip((1 + x) / 2, weight):
-                is_cut = is_cut or self.advance(keep[0] + length * u * u, is_trial=True)
+                is_cut = is_cut or self.advance(length * u * u, is_trial=True)
                 d, rate, slip, *_ = self.contact(p, self.motions(self.z))
                 wear = np.array(self.wear_rates(p, d, K * d + p.c * rate, slip))
-                total += share * u**EXPONENT * wear
-            if not (is_cut or self.advance(keep[0] + length, is_trial=True)):
+                total += share * u**steep * wear
+            if not (is_cut or self.advance(length, is_trial=True)):
                 break
-            length = 0.5 * (self.t - keep[0])
+            length = 0.5 * self.t
+        self.t += keep[0]
         p.is_fresh = False
         self.z = self.z.copy()
-        self.z[p.a * N_STATE + DEPTH : p.a * N_STATE + WALL + 1] += total * length * 2 ** (EXPONENT - 1)
+        self.z[p.a * N_STATE + DEPTH : p.a * N_STATE + WALL + 1] += total * length * 2 ** (steep - 1)
 
     def run(self, t_end):
         while self.t < t_end:
@@ -303,6 +319,9 @@ EXTREME_SCENES = {
     "X01_squeezed": (8.0, [(*SMALL, -4.6, 0.6, U, 0.0, 0.0), (*LARGE, -12.0, 0.0, U, 0.0, 0.0)]),
     "X02_side_by_side": (8.0, [(*SMALL, -4.0, 2.2, U, 0.0, 0.0), (*LARGE, -10.8, 0.6, U, 0.0, 0.0)]),
 }
+LIMITED_EXPONENTS = (0.5, 1.121, 1.9, 2.5)
+LIMITED_FLOES = [(*f, *limit) for f in (("1", 2.5, 0.5, 2.0), ("1", 2.5, 0.5, 4.0), ("small", *SMALL, 1.5), ("large", *LARGE, 4.0))
+                 for limit in ((0.5, 0.0), (5.0, 0.0), (7.4, 0.7))]
 START = ("D", "h", "x0", "y0", "vx0", "vy0", "spin0")
 
 
@@ -328,6 +347,19 @@ def solve_single(case, D, h, y0, formulation):
                   "v_theta_exit": abs(vy * nx - vx * ny), "spin_exit": abs(spin)}
 
 
+def solve_limited(case, D, h, y0, P0, q, formulation):
+    """Loads [MPa^m m] and [MPa^m m2] of one floe under a crushing limit, a pair of columns for every exponent."""
+    global EXPONENT, RATE, LIMIT
+    keep = EXPONENT, RATE, LIMIT
+    row = {"case": case, "D": D, "h": h, "y0": y0, "P0": P0, "q": q}
+    for m in LIMITED_EXPONENTS:
+        EXPONENT, RATE, LIMIT = m, 1e-5, (P0, q)
+        single = solve_single(case, D, h, y0, formulation)
+        row |= {f"along_{m:g}": single["depth_total_mm"] / RATE, f"wall_{m:g}": single["W_mm_m"] / RATE}
+    EXPONENT, RATE, LIMIT = keep
+    return row
+
+
 def solve_scene(scene, t_end, starts, formulation):
     """The rows of a scene; what all its floes do to the structure stands on the first."""
     floes = [Floe(*start) for start in starts]
@@ -347,6 +379,8 @@ def solve_scene(scene, t_end, starts, formulation):
 
 def solve_table(rows, formulation):
     """All rows of a table again, from what they say about the start."""
+    if "P0" in rows[0]:
+        return [solve_limited(r["case"], *(float(r[k]) for k in ("D", "h", "y0", "P0", "q")), formulation) for r in rows]
     if "outcome" in rows[0]:
         return [solve_single(r["case"], *(float(r[k]) for k in ("D", "h", "y0")), formulation) for r in rows]
     out = []
@@ -379,20 +413,23 @@ def read(path):
 def main(command):
     here = os.path.dirname(os.path.abspath(__file__))
     of = {name: os.path.join(here, name) for name in
-          ("single_floe.csv", "multi_floe.csv", "extreme_floes.csv", "extreme_multi.csv")}
+          ("single_floe.csv", "multi_floe.csv", "extreme_floes.csv", "extreme_multi.csv", "limited_floes.csv")}
     if command == "write":
         floes = [solve_single(*f, FORMULATIONS[0]) for f in EXTREME_FLOES]
         scenes = [row for name, scene in EXTREME_SCENES.items() for row in solve_scene(name, *scene, FORMULATIONS[0])]
+        limited = [solve_limited(*f, FORMULATIONS[0]) for f in LIMITED_FLOES]
         for like, name, rows in (("single_floe.csv", "extreme_floes.csv", floes),
-                                 ("multi_floe.csv", "extreme_multi.csv", scenes)):
+                                 ("multi_floe.csv", "extreme_multi.csv", scenes), (None, "limited_floes.csv", limited)):
             with open(of[name], "w", newline="") as f:
-                table = csv.DictWriter(f, read(of[like])[0].keys(), lineterminator="\n")
+                table = csv.DictWriter(f, like and read(of[like])[0].keys() or rows[0].keys(), lineterminator="\n")
                 table.writeheader()
                 table.writerows(rows)
     is_good = True
     for name, path in of.items():
         rows = read(path)
         for formulation in FORMULATIONS:
+            if "P0" in rows[0] and formulation[0] != "polar":
+                continue  # has not the digits: README.md
             difference, where = worst_difference(rows, solve_table(rows, formulation))
             is_good = is_good and difference <= 1e-9
             print(f"{name:18s} {formulation[0]:9s} tolerance {formulation[1]:g}: worst difference {difference:.1e} ({where})")
