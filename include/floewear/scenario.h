@@ -77,7 +77,7 @@ typedef enum fw_size_law {
 typedef struct fw_abrasion_law {
     char   name[24];         /* "bekker2011", "archard", "power" */
     double coefficient;      /* a: rate = a (sigma / |T|)^exponent [mm/km], sigma in MPa, T in degC */
-    double exponent;         /* m, 0 < m < 2 */
+    double exponent;         /* m, 0 < m < 2; to 4 under a crushing limit whose exponent x m < 2 */
     bool   uses_temperature; /* false: rate = a sigma^exponent */
 } fw_abrasion_law;
 
@@ -171,7 +171,7 @@ typedef struct fw_model {
     double          floe_friction;  /* mu between floes [-] */
     fw_wind         wind;           /* speed and angle are the scenario's */
     fw_tide         tide;
-    fw_pressure_law crushing_limit; /* on the pressure that wears */
+    fw_pressure_law crushing_limit; /* on the pressure that wears; 0 <= exponent < 1 */
     fw_crush        crush;          /* contact law, and stiffness_from_pressure */
     bool            stiffness_from_pressure; /* k of every contact from crush.law, the floes and the current's speed instead of stiffness */
 

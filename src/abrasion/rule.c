@@ -3,6 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "abrasion/rule_inside.h"
+#include "geometry/lens.h"
+
 /* Gauss-Legendre on (0, 1). */
 static const double NODE3[] = FW_RULE_NODES3, WEIGHT3[] = FW_RULE_WEIGHTS3;
 static const double NODE5[] = {0.046910077030668004, 0.23076534494715846, 0.5, 0.76923465505284154,
@@ -17,8 +20,6 @@ static const double WEIGHT4[] = {0.17392742256872693, 0.32607257743127307, 0.326
 static const double EARLY = 2;
 /* Force at one end below this share of the other: nodes drawn to that end. */
 static const double FADED = 0.25;
-/* Force right after a touch above this share of the end's: a touch, however much it grows. */
-static const double GROWN = 0.05;
 
 /* Lagrange polynomials of n nodes: out[k][i] is the coefficient of u^k in the polynomial that is 1 at node i. */
 static void lagrange(size_t n, const double *at, size_t row, double *out)
@@ -52,19 +53,6 @@ void fw_rule_init(fw_rule *r, size_t n_laws, const double *exponent)
     lagrange(FW_RULE_TOUCH, NODE4, FW_RULE_TOUCH, &r->touch[0][0]);
 }
 
-/* Force, slip and overlap of one interval as polynomials in u, its share of the length. */
-typedef struct course {
-    size_t n, n_depth; /* coefficients of normal and slip, and of depth */
-    double normal[FW_WEAR_STAGES], slip[FW_WEAR_STAGES], depth[FW_WEAR_STAGES];
-} course;
-
-static double value(size_t n, const double *c, double u)
-{
-    double sum = c[n - 1];
-    for (size_t k = n - 1; k-- > 0;) sum = sum * u + c[k];
-    return sum;
-}
-
 static bool are_of(const struct fw_rule_stages *s, const fw_wear_interval *iv)
 {
     bool is_same = s->n == iv->n_stages;
@@ -92,7 +80,7 @@ static const struct fw_rule_stages *know_stages(fw_rule *r, const fw_wear_interv
     return s;
 }
 
-static void through_stages(fw_rule *r, const fw_wear_interval *iv, course *c)
+static void through_stages(fw_rule *r, const fw_wear_interval *iv, fw_course *c)
 {
     size_t                       n = iv->n_stages;
     bool                         is_release = n == 2; /* the method's stages stay known */
@@ -124,21 +112,21 @@ static void through_stages(fw_rule *r, const fw_wear_interval *iv, course *c)
     c->depth[2] = 3 * rise - 2 * s0 - s1, c->depth[3] = s0 + s1 - 2 * rise;
 }
 
-static void through_ends(const fw_wear_interval *iv, course *c)
+static void through_ends(const fw_wear_interval *iv, fw_course *c)
 {
     size_t last = iv->n_stages - 1;
-    *c = (course){.n = 2,
-                  .n_depth = 2,
-                  .normal = {iv->normal[0], iv->normal[last] - iv->normal[0]},
-                  .slip = {iv->slip[0], iv->slip[last] - iv->slip[0]},
-                  .depth = {iv->depth[0], iv->depth[1] - iv->depth[0]}};
+    *c = (fw_course){.n = 2,
+                     .n_depth = 2,
+                     .normal = {iv->normal[0], iv->normal[last] - iv->normal[0]},
+                     .slip = {iv->slip[0], iv->slip[last] - iv->slip[0]},
+                     .depth = {iv->depth[0], iv->depth[1] - iv->depth[0]}};
 }
 
 /* Zero of a polynomial between a and b, where it has the signs of fa and fb: false position, Illinois variant. */
 static double zero(size_t n, const double *c, double a, double fa, double b, double fb)
 {
     for (int i = 0; i < 60 && fabs(b - a) > 1e-14 && fb != 0; i++) {
-        double x = b - fb * (b - a) / (fb - fa), fx = value(n, c, x);
+        double x = b - fb * (b - a) / (fb - fa), fx = fw_course_value(n, c, x);
         if ((fx > 0) == (fb > 0))
             fa *= 0.5;
         else
@@ -182,7 +170,7 @@ static void weigh_touch(const fw_rule *r, double start, double t_end, fw_rule_no
 
 /* Nodes of one piece [a, b]. GROWS and FADES put u at a distance (1 - v)^2 from the end where the force is nil: a rate
  * like distance^m becomes (1 - v)^(2m + 1). */
-static void add_piece(const fw_rule *r, const fw_wear_interval *iv, const course *c, enum kind kind, double a, double b,
+static void add_piece(const fw_rule *r, const fw_wear_interval *iv, const fw_course *c, enum kind kind, double a, double b,
                       fw_rule_nodes *to)
 {
     size_t        n = kind == SMOOTH ? 3 : kind == TOUCH ? FW_RULE_TOUCH : FW_RULE_FADE;
@@ -204,8 +192,8 @@ static void add_piece(const fw_rule *r, const fw_wear_interval *iv, const course
         done = next;
         to->wide[q] = dt;
         for (size_t l = 0; l < r->n_laws; l++) to->along[l][q] = to->wall[l][q] = dt;
-        to->normal[q] = value(c->n, c->normal, u), to->slip[q] = value(c->n, c->slip, u);
-        to->depth[q] = value(c->n_depth, c->depth, u);
+        to->normal[q] = fw_course_value(c->n, c->normal, u), to->slip[q] = fw_course_value(c->n, c->slip, u);
+        to->depth[q] = fw_course_value(c->n_depth, c->depth, u);
     }
     if (kind == TOUCH) {
         double t_end = iv->since_touch + b * iv->length;
@@ -214,22 +202,31 @@ static void add_piece(const fw_rule *r, const fw_wear_interval *iv, const course
     to->n += n;
 }
 
-/* One piece without a change of slip's sign; na, nb: force at its ends. */
-static void add(const fw_rule *r, const fw_wear_interval *iv, const course *c, double a, double na, double b, double nb,
-                fw_rule_nodes *to)
+static bool is_early(const fw_wear_interval *iv, double a, double b)
+{
+    return iv->since_touch + a * iv->length < EARLY * (b - a) * iv->length;
+}
+
+void fw_rule_add(const fw_rule *r, const fw_wear_interval *iv, const fw_course *c, double a, double na, double b, double nb,
+                 fw_rule_nodes *to)
 {
     if (!(b > a)) return;
-    bool      is_early = iv->since_touch + a * iv->length < EARLY * (b - a) * iv->length;
+    bool      is_touch = is_early(iv, a, b);
     enum kind kind = nb < FADED * na ? FADES : na < FADED * nb ? GROWS : SMOOTH;
     /* with next to no damping the force of a touch grows from little: still a touch, unless it begins at nil */
-    if (is_early && kind == GROWS && na > GROWN * nb) kind = SMOOTH;
-    if (is_early && kind == FADES) {
+    if (is_touch && kind == GROWS && na > FW_RULE_GROWN * nb) kind = SMOOTH;
+    if (is_touch && kind == FADES) {
         double middle = 0.5 * (a + b);
         add_piece(r, iv, c, TOUCH, a, middle, to);
         add_piece(r, iv, c, FADES, middle, b, to);
     } else {
-        add_piece(r, iv, c, is_early && kind == SMOOTH ? TOUCH : kind, a, b, to);
+        add_piece(r, iv, c, is_touch && kind == SMOOTH ? TOUCH : kind, a, b, to);
     }
+}
+
+void fw_rule_add_capped(const fw_rule *r, const fw_wear_interval *iv, const fw_course *c, double a, double b, fw_rule_nodes *to)
+{
+    add_piece(r, iv, c, is_early(iv, a, b) ? TOUCH : SMOOTH, a, b, to);
 }
 
 /* Cubic Hermite weights of both ends' values and slopes at the smooth nodes, and at the touch nodes. */
@@ -256,7 +253,7 @@ static bool is_touch(fw_rule *r, const fw_wear_interval *restrict iv, fw_rule_no
     size_t              last = iv->n_stages - 1;
     double              na = iv->normal[0], nb = iv->normal[last], length = iv->length;
     if (last < 2 || iv->since_touch >= EARLY * length || !(na > 0) || !(nb > 0)) return false;
-    if (nb < FADED * na || na <= GROWN * nb || !(iv->slip[0] * iv->slip[last] > 0)) return false;
+    if (nb < FADED * na || na <= FW_RULE_GROWN * nb || !(iv->slip[0] * iv->slip[last] > 0)) return false;
     const struct fw_rule_stages *stages = know_stages(r, iv);
     double s0 = length * iv->rate[0], s1 = length * iv->rate[1], normal[4] = {0}, slip[4] = {0};
     for (size_t i = 0; i <= last; i++)
@@ -312,14 +309,45 @@ static void at_end(const fw_rule *r, const fw_wear_interval *iv, fw_rule_nodes *
     for (size_t l = 0; l < r->n_laws; l++) to->along[l][0] = to->wall[l][0] = iv->length;
 }
 
-void fw_rule_apply(fw_rule *r, fw_wear_rule rule, const fw_wear_interval *iv, fw_rule_nodes *to)
+static bool slides(const fw_wear_interval *iv)
+{
+    bool is_moving = false;
+    for (size_t i = 0; i < iv->n_stages; i++) is_moving |= iv->slip[i] != 0;
+    return is_moving;
+}
+
+/* An interval's pieces, each with a force and without a change of slip's sign. */
+static inline __attribute__((always_inline)) void
+add_pieces(const fw_rule *r, const fw_wear_interval *iv, const fw_course *c,
+           void (*add)(const fw_rule *, const fw_wear_interval *, const fw_course *, double, double, double, double, fw_rule_nodes *),
+           fw_rule_nodes *to)
 {
     size_t last = iv->n_stages - 1;
+    /* The part [a, b] with a force. The signed law k d + c d' is smooth where the clamp at zero has a kink, so its zero is
+     * found on the interpolant: a floe that leaves slides fast on its last millimetres and a step that counts whole nodes
+     * there would be off by some per cent in path. */
+    double a = 0, b = 1, na = iv->normal[0], nb = iv->normal[last];
+    if (!(na > 0) && !(nb > 0)) return;
+    if (!(nb > 0)) b = zero(c->n, c->normal, 0, na, 1, nb), nb = 0;
+    if (!(na > 0)) a = zero(c->n, c->normal, 1, nb, 0, na), na = 0;
+    /* |slip| has a kink where rolling over takes slip through zero */
+    double s0 = iv->slip[0], s1 = iv->slip[last];
+    if ((s0 > 0 && s1 < 0) || (s0 < 0 && s1 > 0)) {
+        double turn = zero(c->n, c->slip, 0, s0, 1, s1);
+        if (turn > a && turn < b) {
+            double nt = fw_course_value(c->n, c->normal, turn);
+            add(r, iv, c, a, na, turn, nt, to);
+            a = turn, na = nt;
+        }
+    }
+    add(r, iv, c, a, na, b, nb, to);
+}
+
+void fw_rule_apply(fw_rule *r, fw_wear_rule rule, const fw_wear_interval *iv, fw_rule_nodes *to)
+{
+    fw_course c;
     to->n = 0;
-    bool slides = false;
-    for (size_t i = 0; i <= last; i++) slides |= iv->slip[i] != 0;
-    if (!slides) return;
-    course c;
+    if (!slides(iv)) return;
     switch (rule) {
     case FW_WEAR_NAIVE: at_end(r, iv, to); return;
     case FW_WEAR_SINGULAR: through_ends(iv, &c); break;
@@ -328,22 +356,34 @@ void fw_rule_apply(fw_rule *r, fw_wear_rule rule, const fw_wear_interval *iv, fw
         through_stages(r, iv, &c);
         break;
     }
-    /* The part [a, b] with a force. The signed law k d + c d' is smooth where the clamp at zero has a kink, so its zero is
-     * found on the interpolant: a floe that leaves slides fast on its last millimetres and a step that counts whole nodes
-     * there would be off by some per cent in path. */
-    double a = 0, b = 1, na = iv->normal[0], nb = iv->normal[last];
-    if (!(na > 0) && !(nb > 0)) return;
-    if (!(nb > 0)) b = zero(c.n, c.normal, 0, na, 1, nb), nb = 0;
-    if (!(na > 0)) a = zero(c.n, c.normal, 1, nb, 0, na), na = 0;
-    /* |slip| has a kink where rolling over takes slip through zero */
-    double s0 = iv->slip[0], s1 = iv->slip[last];
-    if ((s0 > 0 && s1 < 0) || (s0 < 0 && s1 > 0)) {
-        double turn = zero(c.n, c.slip, 0, s0, 1, s1);
-        if (turn > a && turn < b) {
-            double nt = value(c.n, c.normal, turn);
-            add(r, iv, &c, a, na, turn, nt, to);
-            a = turn, na = nt;
-        }
+    add_pieces(r, iv, &c, fw_rule_add, to);
+}
+
+/* Overlaps at the stages miss the closing rate at the touch by a few 1e-4, and that is what the first instants under a limit live on: one power
+ * more, with the rate. */
+static void start_with_rate(const fw_wear_interval *iv, fw_course *c)
+{
+    double P[FW_WEAR_STAGES + 1] = {1}; /* product of (u - at) */
+    size_t n = iv->n_stages;
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = i + 2; k-- > 0;) P[k] = (k > 0 ? P[k - 1] : 0) - iv->at[i] * P[k];
+    double more = (iv->length * iv->rate[0] - c->depth[1]) / P[1];
+    c->depth[n] = 0, c->n_depth = n + 1;
+    for (size_t k = 1; k <= n; k++) c->depth[k] += more * P[k];
+}
+
+void fw_rule_apply_limited(fw_rule *r, fw_wear_rule rule, const fw_wear_interval *iv, fw_rule_nodes *to)
+{
+    fw_course c;
+    to->n = 0;
+    if (!slides(iv)) return;
+    if (rule == FW_WEAR_NAIVE) {
+        at_end(r, iv, to);
+        double area = fw_lens_chord(to->depth[0], iv->radius, r->limit.structure_radius) * iv->thickness;
+        to->normal[0] = fmin(to->normal[0], fw_limit_force(&r->limit, area));
+        return;
     }
-    add(r, iv, &c, a, na, b, nb, to);
+    rule == FW_WEAR_SINGULAR ? through_ends(iv, &c) : through_stages(r, iv, &c);
+    if (rule == FW_WEAR_HERMITE && iv->has_overlap && iv->since_touch == 0 && iv->n_stages < FW_WEAR_STAGES) start_with_rate(iv, &c);
+    add_pieces(r, iv, &c, fw_limit_add, to);
 }

@@ -22,6 +22,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "abrasion/limit.h"
 #include "abrasion/power.h"
 #include "floewear/scenario.h"
 
@@ -29,7 +30,7 @@ enum {
     FW_WEAR_STAGES = 8,
     FW_RULE_TOUCH = 4,
     FW_RULE_FADE = 5,
-    FW_RULE_NODES = 4 * FW_RULE_FADE /* a multiple of 4 */
+    FW_RULE_NODES = 168 /* a multiple of 4: 4 x FW_RULE_FADE, and more where a limit parts the pieces */
 };
 
 /* One structure contact during one sub-step, as the integrator knows it: values at the stages' instants. */
@@ -96,14 +97,20 @@ typedef struct fw_rule {
     fw_power start[FW_MAX_LAWS]; /* t^e along the contact */
     struct fw_rule_stages known[2]; /* of the last two kinds of interval: those of the method and those of a lone floe */
     size_t                last;     /* which of them the last interval was of */
+    /* Of fw_rule_apply_limited alone. */
+    bool          is_steep; /* a law has m >= 2 */
+    double        steepest; /* see limit.c */
+    fw_wear_limit limit;
 } fw_rule;
 
 void fw_rule_init(fw_rule *r, size_t n_laws, const double *exponent);
-
-/* True, and the nodes, when the interval is smooth from end to end; false: fw_rule_apply knows more. */
+/* True, and the nodes, when the interval is smooth from end to end; false: fw_rule_apply knows more. Knows of no limit. */
 bool fw_rule_is_smooth(fw_rule *r, fw_wear_rule rule, const fw_wear_interval *iv, fw_rule_smooth *nodes);
 
 /* nodes.n is 0 when nothing slides under force. */
 void fw_rule_apply(fw_rule *r, fw_wear_rule rule, const fw_wear_interval *iv, fw_rule_nodes *nodes);
+/* The nodes carry the force that wears: min(N, limit), limit.exponent x m < 2 for every law; any m then. */
+void fw_rule_limit(fw_rule *r, const fw_pressure_law *limit, double structure_radius);
+void fw_rule_apply_limited(fw_rule *r, fw_wear_rule rule, const fw_wear_interval *iv, fw_rule_nodes *nodes);
 
 #endif

@@ -49,6 +49,29 @@ void fw_model_defaults(fw_model *m)
 #define NEED(cond, ...) FW_CHECK(cond, msg, FW_E_ARG, __VA_ARGS__)
 static bool is_in(double v, double low, double high) { return v >= low && v <= high; } /* false for NaN */
 
+/* The patch of a touch grows like t^(1/2): without a limit sigma^m ~ t^(-m/2), under one ~ t^(-q m/2). */
+static fw_status check_laws(const fw_model *m, fw_msg *msg)
+{
+    bool                   is_limited = (m->effects & FW_EFFECT_CRUSHING_LIMIT) != 0;
+    const fw_pressure_law *limit = &m->crushing_limit;
+    NEED(!is_limited || is_in(limit->pressure, 1e3, 1e8), "crushing limit %g Pa: wanted 1 kPa to 100 MPa at 1 m2", limit->pressure);
+    NEED(!is_limited || (limit->exponent >= 0 && limit->exponent < 1), "crushing limit: exponent %g of the area: wanted 0 <= q < 1",
+         limit->exponent);
+    for (size_t i = 0; i < m->n_laws; i++) {
+        const fw_abrasion_law *l = &m->laws[i];
+        NEED(is_limited || (l->exponent > 0 && l->exponent < 2),
+             "abrasion law %s: exponent %g: wanted 0 < m < 2 (from 2 on the load of a touch diverges without a "
+             "crushing limit)",
+             l->name, l->exponent);
+        NEED(l->exponent > 0 && l->exponent <= 4, "abrasion law %s: exponent %g: wanted 0 < m <= 4 under a crushing limit", l->name, l->exponent);
+        NEED(!is_limited || l->exponent * limit->exponent < 2,
+             "abrasion law %s: exponent %g under a crushing limit that falls with area^%g: wanted a product below 2 (from there on the "
+             "load of a touch diverges under the limit too)",
+             l->name, l->exponent, limit->exponent);
+    }
+    return FW_OK;
+}
+
 fw_status fw_model_check(const fw_model *m, fw_msg *msg)
 {
     NEED(is_in(m->structure_radius, 0.05, 500), "structure radius %g m: wanted 0.05 to 500 m", m->structure_radius);
@@ -74,11 +97,7 @@ fw_status fw_model_check(const fw_model *m, fw_msg *msg)
     FW_CHECK(FW_OPTIONAL_EFFECTS || !(m->effects & ~(uint32_t)FW_EFFECTS_CORE), msg, FW_E_UNSUPPORTED,
              "this program was built without the optional effects (FLOEWEAR_OPTIONAL_EFFECTS)");
     NEED(m->n_laws >= 1 && m->n_laws <= FW_MAX_LAWS, "%zu abrasion laws: wanted 1 to %d", m->n_laws, (int)FW_MAX_LAWS);
-    for (size_t i = 0; i < m->n_laws; i++)
-        NEED(m->laws[i].exponent > 0 && m->laws[i].exponent < 2,
-             "abrasion law %s: exponent %g: wanted 0 < m < 2 (from 2 on the load of a touch diverges without a "
-             "crushing limit)",
-             m->laws[i].name, m->laws[i].exponent);
+    FW_TRY(check_laws(m, msg));
     NEED(is_in(m->window, 1e-3, 1e9), "window %g s: wanted 1e-3 to 1e9 s", m->window);
     NEED(is_in(m->accuracy, 1e-4, 0.1), "accuracy %g: wanted 0.01 %% to 10 %%", m->accuracy);
     const fw_numerics *n = &m->numerics;

@@ -134,6 +134,7 @@ static fw_status run_once(const fw_scene *scene, const fw_model *model, double f
     if (s == FW_OK) s = fw_kernel_create(&k, &setup, m);
     if (s == FW_OK) s = add_floes(w, scene, &setup, m);
     if (s == FW_OK) {
+        if (model->effects & FW_EFFECT_CRUSHING_LIMIT) fw_wear_limit_pressure(&wear, &model->crushing_limit);
         wear.rule = model->numerics.wear_rule;
         wear.is_open = true;
         fw_world_open_ledger(w);

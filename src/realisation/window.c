@@ -114,6 +114,7 @@ fw_status fw_window_open(fw_window_run *r, const fw_model *model, const fw_scena
     r->setup.attend = attend, r->setup.attend_self = r;
     FW_TRY(fw_cost_limit(model, sc, &r->setup.max_evaluations, m));
     FW_TRY(fw_wear_init(&r->wear, model->structure_radius, model->n_arcs, model->n_laws, model->laws, m));
+    if (model->effects & FW_EFFECT_CRUSHING_LIMIT) fw_wear_limit_pressure(&r->wear, &model->crushing_limit);
     r->is_ice = true;
     FW_TRY(lay(r, sc, m));
     r->is_ice = false;

@@ -94,6 +94,46 @@ static void row(const char *name, const fw_wear_interval *iv, fw_wear_rule rule,
     printf("\n");
 }
 
+/* With and without a crushing limit in turn; ratio of the batches' medians. */
+static void limited(const char *name, const fw_wear_interval *iv, double pressure, double batch_s)
+{
+    fw_wear w[2];
+    double  ns[2][N_BATCHES];
+    fw_msg  m = {""};
+    for (int i = 0; i < 2; i++) {
+        if (fw_wear_init(&w[i], 3.7, 360, 1, LAWS, &m) != FW_OK) exit(1);
+        w[i].is_open = true;
+    }
+    fw_wear_limit_pressure(&w[1], &(fw_pressure_law){pressure, 0});
+    for (size_t b = 0; b < N_BATCHES; b++)
+        for (int i = 0; i < 2; i++) {
+            double start = bench_cpu_now(), done = 0;
+            do {
+                for (size_t k = 0; k < N_INTERVALS; k++) fw_wear_collect(&w[i], &iv[k]);
+                done += N_INTERVALS;
+            } while (bench_cpu_now() - start < batch_s);
+            ns[i][b] = 1e9 * (bench_cpu_now() - start) / done;
+        }
+    fw_wear_finish(&w[1]);
+    bench_expect(w[1].sums[0].along > 0 && fw_wear_conservation(&w[1]) < 1e-10, "%s: ring and patch differ by %g", name,
+                 fw_wear_conservation(&w[1]));
+    double off = bench_median(N_BATCHES, ns[0]), on = bench_median(N_BATCHES, ns[1]);
+    printf("| %s | %.2f | %.0f | %.0f | %.2f |\n", name, pressure * 1e-6, off, on, on / off);
+    for (int i = 0; i < 2; i++) fw_wear_free(&w[i]);
+}
+
+static void limits(fw_wear_interval *iv, double batch_s)
+{
+    printf("\nUnder a crushing limit, law with exponent 1.121:\n\n| interval | limit MPa | ns without | ns with | ratio |\n|---|---|---|---|---|\n");
+    slides(iv, 0.05, 1);
+    limited("slide, patch moves up to an arc", iv, 5e6, batch_s);
+    limited("the same, limit in the midst of the pressures", iv, 0.12e6, batch_s);
+    touches(iv);
+    limited("one of the first four after a touch", iv, 5e6, batch_s);
+    fades(iv);
+    limited("force fades", iv, 5e6, batch_s);
+}
+
 int main(int argc, char **argv)
 {
     double            batch_s = bench_start(argc, argv) ? 0.002 : 0.1;
@@ -114,6 +154,7 @@ int main(int argc, char **argv)
     row("one of the first four after a touch", iv, FW_WEAR_HERMITE, batch_s);
     fades(iv);
     row("force fades", iv, FW_WEAR_HERMITE, batch_s);
+    limits(iv, batch_s);
     printf("\n");
     free(iv);
     return bench_end();

@@ -64,13 +64,18 @@ static inline fw_scene scene_of(fw_floe *floes, size_t n, double duration, doubl
 static const double REFERENCE_GAP =
     0.3; /* [m] between rim and structure where a single floe starts: it touches gap / u later */
 
+static inline fw_floe single_floe_at(double D, double h, double y0)
+{
+    double reach = 3.7 + D / 2;
+    return (fw_floe){.x = -(sqrt(reach * reach - y0 * y0) + REFERENCE_GAP), .y = y0, .diameter = D, .thickness = h, .vx = 2};
+}
+
 /* The floe of a row of single floes; a miss starts upstream of everything. */
 static inline fw_floe single_floe_of(const table *t, size_t row)
 {
-    double D = value(t, row, "D"), y0 = value(t, row, "y0"), reach = 3.7 + D / 2;
-    bool   is_miss = strcmp(text(t, row, "outcome"), "miss") == 0;
-    double x0 = is_miss ? -8 : -(sqrt(reach * reach - y0 * y0) + REFERENCE_GAP);
-    return (fw_floe){.x = x0, .y = y0, .diameter = D, .thickness = value(t, row, "h"), .vx = 2};
+    fw_floe f = single_floe_at(value(t, row, "D"), value(t, row, "h"), value(t, row, "y0"));
+    if (strcmp(text(t, row, "outcome"), "miss") == 0) f.x = -8;
+    return f;
 }
 
 /* The floes of the scene that starts at a row of several floes; returns how many rows it has. */
