@@ -2,11 +2,7 @@
  * `run` and `plan` find it. One process: its CPU seconds are part of the result, and ranks that share a machine would blur them. */
 #include <argp.h>
 #include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-#include "base/clock.h"
 #include "campaign/signals.h"
 #include "cli/accuracy_file.h"
 #include "cli/accuracy_print.h"
@@ -15,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/config.h"
 #include "cli/output.h"
+#include "cli/study_run.h"
 
 typedef struct accuracy_arguments {
     fw_campaign_arguments of; /* the campaign */
@@ -62,79 +59,23 @@ static error_t parse(int key, char *text, struct argp_state *state)
     }
 }
 
-/* ---- while it runs ---------------------------------------------------------------------------------------------- */
-
-typedef struct watch {
-    double start, budget_s, said; /* [s] */
-    bool   is_quiet, is_terminal, is_line_open;
-} watch;
-
-static fw_status look(void *self, double done)
-{
-    const watch *w = self;
-    (void)done;
-    if (fw_signals_received()) return FW_E_STOPPED;
-    return w->budget_s > 0 && fw_seconds() - w->start > w->budget_s ? FW_E_STOPPED : FW_OK;
-}
-
-/* On a terminal one line that is rewritten; in a log one a minute. */
-static void say(void *self, const char *what)
-{
-    watch *w = self;
-    double now = fw_seconds();
-    if (w->is_quiet || (!w->is_terminal && now - w->said < 60)) return;
-    w->said = now;
-    w->is_line_open = w->is_terminal;
-    fprintf(stderr, w->is_terminal ? "\r\033[K%5.0f s  %s" : "%.0f s: %s\n", now - w->start, what);
-    fflush(stderr);
-}
-
 /* ---- the command ------------------------------------------------------------------------------------------------ */
-
-/* A place that cannot be written is told now, not after minutes. */
-static fw_status check_place(const char *path, fw_msg *m)
-{
-    char        folder[4096];
-    const char *slash = strrchr(path, '/');
-    struct stat s;
-    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash == path ? 1 : slash - path) : 1, slash ? path : ".");
-    FW_CHECK(stat(folder, &s) == 0, m, FW_E_IO, "-o: the folder %s cannot be used: %s", folder, strerror(errno));
-    FW_CHECK(S_ISDIR(s.st_mode), m, FW_E_IO, "-o: %s is not a folder", folder);
-    FW_CHECK(access(folder, W_OK) == 0, m, FW_E_IO, "-o: the folder %s cannot be written: %s", folder, strerror(errno));
-    fw_tables *old = NULL;
-    fw_msg     why = {""};
-    if (stat(path, &s) != 0) return FW_OK;
-    fw_status status = fw_tables_open(&old, path, FW_ACCURACY_FILETYPE, &why);
-    fw_tables_close(old);
-    FW_CHECK(status == FW_OK, m, FW_E_MISMATCH, "will not replace a file that is no accuracy study of ours: %s",
-             why.text);
-    return FW_OK;
-}
 
 static fw_status measure(const accuracy_arguments *a, const fw_campaign *c, const char *path, fw_msg *m)
 {
-    watch w = {
-        .start = fw_seconds(), .budget_s = a->of.budget_s, .is_quiet = a->is_quiet, .is_terminal = isatty(STDERR_FILENO)};
-    fw_tick             tick = {.call = look, .self = &w};
+    fw_study_watch      w = fw_study_watch_start(a->of.budget_s, a->is_quiet);
+    fw_tick             tick = fw_study_watch_tick(&w);
     fw_accuracy_options o = {.scenario = fw_campaign_scenario,
                              .cpu_budget_s = a->is_quick ? QUICK_S : USUAL_S,
                              .tick = &tick,
-                             .say = say,
+                             .say = fw_study_watch_say,
                              .say_self = &w};
     fw_accuracy         result;
-    w.said = w.start;
     if (a->of.budget_s > 0 && SHARE_OF_BUDGET * a->of.budget_s < o.cpu_budget_s)
         o.cpu_budget_s = SHARE_OF_BUDGET * a->of.budget_s;
     if (a->cpu_budget_s > 0) o.cpu_budget_s = a->cpu_budget_s;
-    fw_status s = fw_accuracy_study(&result, c, &o, m);
-    if (w.is_line_open) fprintf(stderr, "\r\033[K");
-    if (s == FW_E_STOPPED) {
-        return fw_signals_received()
-                   ? fw_fail(m, s, "stopped by signal %d; nothing is written", fw_signals_received())
-                   : fw_fail(m, s, "the time budget of %g s is used up; nothing is written", a->of.budget_s);
-    }
-    FW_TRY(s);
-    s = fw_accuracy_file_write(path, c, &result, m);
+    FW_TRY(fw_study_watch_end(&w, fw_accuracy_study(&result, c, &o, m), m));
+    fw_status s = fw_accuracy_file_write(path, c, &result, m);
     if (s == FW_OK) {
         if (a->is_json)
             fw_accuracy_print_json(stdout, c, &result);
@@ -148,25 +89,14 @@ static fw_status measure(const accuracy_arguments *a, const fw_campaign *c, cons
     return s;
 }
 
-/* One process; a launcher that starts several of us says so in the environment, whoever's it is. */
-static bool is_one_of_many(void)
-{
-    static const char *const NAMES[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MPI_LOCALNRANKS"};
-    for (size_t i = 0; i < sizeof NAMES / sizeof NAMES[0]; i++) {
-        const char *n = getenv(NAMES[i]);
-        if (n && strtol(n, NULL, 10) > 1) return true;
-    }
-    return false;
-}
-
 static fw_status accuracy(const accuracy_arguments *a, fw_msg *m)
 {
     char        path[4096];
     fw_campaign c;
-    FW_CHECK(!is_one_of_many(), m, FW_E_INPUT, "it runs on one core: start it without mpirun (it measures CPU time)");
+    FW_TRY(fw_study_check_alone(m));
     FW_TRY(fw_config_campaign(&c, a->of.campaign, a->of.n_sets, a->of.sets, a->of.seed, m));
     fw_status s = fw_choice_path(path, sizeof path, a->out ? a->out : c.name, m);
-    if (s == FW_OK) s = check_place(path, m);
+    if (s == FW_OK) s = fw_study_check_place(path, FW_ACCURACY_FILETYPE, m);
     if (s == FW_OK) s = measure(a, &c, path, m);
     fw_campaign_free(&c);
     return s;
