@@ -53,7 +53,8 @@ typedef enum fw_given_bit {
     FW_GIVEN_WIND_SPEED = 1u << 13, /* the one that makes it blow */
     FW_GIVEN_TIDE = 1u << 14,
     FW_GIVEN_COURSE = 1u << 15,
-    FW_GIVEN_CRUSHING_LIMIT = 1u << 16
+    FW_GIVEN_CRUSHING_LIMIT = 1u << 16,
+    FW_GIVEN_EFFECTS = 1u << 30 /* effects: anything but auto */
 } fw_given_bit;
 
 typedef struct fw_thickness_class {

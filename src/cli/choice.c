@@ -8,12 +8,15 @@
 
 #include "base/memory.h"
 #include "cli/config.h"
+#include "cli/effects_print.h"
+#include "cli/effects_tables.h"
+#include "effects/effects.h"
 
-fw_status fw_choice_path(char *path, size_t size, const char *out, fw_msg *m)
+fw_status fw_choice_path(char *path, size_t size, const char *out, fw_choice_file kind, fw_msg *m)
 {
-    static const char *const ENDS[] = {".accuracy.h5", ".h5"};
+    static const char *const ENDS[] = {".accuracy.h5", ".effects.h5", ".h5"};
     size_t                   n = strlen(out);
-    for (size_t i = 0; i < 2; i++) {
+    for (size_t i = 0; i < 3; i++) {
         size_t k = strlen(ENDS[i]);
         if (n <= k || strcmp(out + n - k, ENDS[i]) != 0) continue;
         n -= k;
@@ -22,7 +25,7 @@ fw_status fw_choice_path(char *path, size_t size, const char *out, fw_msg *m)
     FW_CHECK(n > 0 && out[n - 1] != '/', m, FW_E_INPUT, "-o %s: a file name is wanted, not a folder", out);
     FW_CHECK(n + sizeof ".accuracy.h5" <= size, m, FW_E_INPUT, "-o: the output name is longer than %zu characters",
              size - sizeof ".accuracy.h5");
-    snprintf(path, size, "%.*s.accuracy.h5", (int)n, out);
+    snprintf(path, size, "%.*s%s", (int)n, out, ENDS[kind]);
     return FW_OK;
 }
 
@@ -43,17 +46,21 @@ typedef struct found {
     fw_measured    measured;
 } found;
 
+/* FW_E_MISMATCH: the file belongs to another campaign. */
+static fw_status check_owner(const fw_tables *t, const char *path, const fw_campaign *bare, fw_msg *m)
+{
+    char        key[64];
+    const char *theirs = fw_tables_settings(t);
+    if (strcmp(theirs, bare->settings) == 0) return FW_OK;
+    first_difference(theirs, bare->settings, key, sizeof key);
+    return fw_fail(m, FW_E_MISMATCH, "%s belongs to another campaign (%s differs)", path, key);
+}
+
 static fw_status read_choice(const char *path, const fw_campaign *bare, found *out, fw_msg *m)
 {
     fw_tables *t;
     FW_TRY(fw_tables_open(&t, path, FW_ACCURACY_FILETYPE, m));
-    fw_status   s = FW_OK;
-    const char *theirs = fw_tables_settings(t);
-    if (strcmp(theirs, bare->settings) != 0) {
-        char key[64];
-        first_difference(theirs, bare->settings, key, sizeof key);
-        s = fw_fail(m, FW_E_MISMATCH, "%s belongs to another campaign (%s differs)", path, key);
-    }
+    fw_status s = check_owner(t, path, bare, m);
     if (s == FW_OK) s = fw_accuracy_file_read_sets(t, &out->sets, m);
     if (s == FW_OK) s = fw_accuracy_file_read_measured(t, &out->measured, m);
     fw_tables_close(t);
@@ -66,15 +73,24 @@ static bool has_numerics(const fw_model *m)
     return n->order != 0 || n->tolerance > 0 || n->wear_tolerance > 0 || n->first_step > 0 || n->growth > 0;
 }
 
-/* The campaign again, with the choice's sets after the user's. */
-static fw_status apply(fw_campaign *c, const fw_choice_wanted *w, const fw_choice_sets *sets, fw_msg *m)
+/* What is put on top of the user's own sets. */
+typedef struct extra {
+    fw_choice_sets numerics;
+    char           effects[400]; /* "effects={added_mass: off}"; empty: none */
+} extra;
+
+/* The campaign again, with the choices' sets after the user's. */
+static fw_status apply(fw_campaign *c, const fw_choice_wanted *w, const extra *x, fw_msg *m)
 {
     const char **all;
+    size_t       n = w->n_sets;
     fw_campaign  chosen;
-    FW_TRY(fw_alloc(&all, w->n_sets + sets->n, sizeof *all, "--set", m));
-    for (size_t i = 0; i < w->n_sets; i++) all[i] = w->sets[i];
-    for (size_t i = 0; i < sets->n; i++) all[w->n_sets + i] = sets->text[i];
-    fw_status s = fw_config_campaign(&chosen, w->campaign, w->n_sets + sets->n, all, w->seed, m);
+    if (x->numerics.n == 0 && !x->effects[0]) return FW_OK;
+    FW_TRY(fw_alloc(&all, n + x->numerics.n + 1, sizeof *all, "--set", m));
+    for (size_t i = 0; i < n; i++) all[i] = w->sets[i];
+    for (size_t i = 0; i < x->numerics.n; i++) all[n++] = x->numerics.text[i];
+    if (x->effects[0]) all[n++] = x->effects;
+    fw_status s = fw_config_campaign(&chosen, w->campaign, n, all, w->seed, m);
     free(all);
     FW_TRY(s);
     fw_campaign_free(c);
@@ -82,7 +98,9 @@ static fw_status apply(fw_campaign *c, const fw_choice_wanted *w, const fw_choic
     return FW_OK;
 }
 
-static fw_status choose(fw_campaign *c, const fw_choice_wanted *w, const char *path, fw_choice *out, fw_msg *m)
+/* ---- numerics --------------------------------------------------------------------------------------------------- */
+
+static fw_status choose_numerics(const fw_campaign *c, const fw_choice_wanted *w, const char *path, fw_choice *out, fw_choice_sets *sets, fw_msg *m)
 {
     found       f;
     fw_msg      why = {""};
@@ -104,30 +122,107 @@ static fw_status choose(fw_campaign *c, const fw_choice_wanted *w, const char *p
         return FW_OK;
     }
     out->measured = f.measured;
-    FW_TRY(apply(c, w, &f.sets, m));
     out->is_taken = true;
+    *sets = f.sets;
     size_t n = (size_t)snprintf(out->line, sizeof out->line, "numerics: chosen by %.300s:", path);
     for (size_t i = 0; i < f.sets.n && n < sizeof out->line; i++)
         n += (size_t)snprintf(out->line + n, sizeof out->line - n, " %s", f.sets.text[i]);
     return FW_OK;
 }
 
-fw_status fw_choice_campaign(fw_campaign *c, const fw_choice_wanted *w, fw_choice *out, fw_msg *m)
+static fw_status find_numerics(const fw_campaign *c, const fw_choice_wanted *w, fw_choice *out, fw_choice_sets *sets, fw_msg *m)
 {
     char path[4096];
-    memset(out, 0, sizeof *out);
-    FW_TRY(fw_config_campaign(c, w->campaign, w->n_sets, w->sets, w->seed, m));
     fw_measured_default(&out->measured, &c->model);
-    fw_status s = FW_OK;
     if (has_numerics(&c->model)) {
         snprintf(out->line, sizeof out->line, "numerics: as the campaign says");
-        if (w->from)
-            s = fw_fail(m, FW_E_INPUT, "--accuracy-from %s: the campaign names its own numerics; leave one of them out",
-                        w->from);
-    } else {
-        s = w->from ? FW_OK : fw_choice_path(path, sizeof path, w->out ? w->out : c->name, m);
-        if (s == FW_OK) s = choose(c, w, w->from ? w->from : path, out, m);
+        FW_CHECK(!w->from, m, FW_E_INPUT, "--accuracy-from %s: the campaign names its own numerics; leave one of them out", w->from);
+        return FW_OK;
     }
+    if (!w->from) FW_TRY(fw_choice_path(path, sizeof path, w->out ? w->out : c->name, FW_CHOICE_ACCURACY, m));
+    return choose_numerics(c, w, w->from ? w->from : path, out, sets, m);
+}
+
+/* ---- effects ---------------------------------------------------------------------------------------------------- */
+
+#define SAY_EFFECTS(...) snprintf(out->effects_line, sizeof out->effects_line, __VA_ARGS__)
+
+/* Which effects go, as a set, and the line that says why. */
+static void leave_out(const fw_campaign *c, const char *path, fw_choice *out, char *set, size_t size)
+{
+    const fw_effects_row *rows[FW_EFFECTS_ROWS];
+    double                tolerance = c->model.effects_tolerance;
+    size_t                n = fw_effects_ledger_drops(&out->effects, tolerance, rows), used = 0, said = 0;
+    if (!(tolerance > 0)) return;
+    if (c->model.given & (uint32_t)FW_GIVEN_EFFECTS) {
+        SAY_EFFECTS("effects: as the campaign says; effects_tolerance acts under effects: auto alone");
+        return;
+    }
+    said = (size_t)SAY_EFFECTS("effects: by %.200s %s moves less than effects_tolerance %g %% and costs more than 1 %%", path,
+                               n ? "this" : "none", 100 * tolerance);
+    for (size_t i = 0; i < n; i++) {
+        char             mean[48], percentile[48];
+        const fw_effect *e = fw_effects_find(rows[i]->name);
+        if (!e || used + 48 > size) continue;
+        used += (size_t)snprintf(set + used, size - used, "%s%s: off", used ? ", " : "effects={", e->name);
+        out->dropped |= (uint32_t)e->bit;
+        if (said < sizeof out->effects_line)
+            said += (size_t)snprintf(out->effects_line + said, sizeof out->effects_line - said, "%s %s (mean %s, P%g %s)", i ? "," : ", and is left out:", e->name,
+                                     fw_effects_say_change(mean, sizeof mean, &rows[i]->mean), out->effects.percentile,
+                                     fw_effects_say_change(percentile, sizeof percentile, &rows[i]->percentile));
+    }
+    if (used) snprintf(set + used, size - used, "}");
+}
+
+static fw_status find_effects(const fw_campaign *c, const fw_choice_wanted *w, fw_choice *out, char *set, size_t size, fw_msg *m)
+{
+    char        path[4096];
+    fw_msg      why = {""};
+    fw_tables  *t = NULL;
+    struct stat st;
+    FW_TRY(fw_choice_path(path, sizeof path, w->out ? w->out : c->name, FW_CHOICE_EFFECTS, m));
+    if (stat(path, &st) != 0) {
+        if (c->model.effects_tolerance > 0) SAY_EFFECTS("effects: none is left out: no %.300s (floewear plan --effects writes it)", path);
+        return FW_OK;
+    }
+    fw_status s = fw_tables_open(&t, path, FW_EFFECTS_FILETYPE, &why);
+    if (s == FW_OK) s = check_owner(t, path, c, &why);
+    if (s == FW_OK) s = fw_effects_tables_read(t, &out->effects, &why);
+    fw_tables_close(t);
+    FW_CHECK(s != FW_E_NOMEM, m, s, "%s", why.text); /* not to go on with other effects for that */
+    if (s != FW_OK) {
+        SAY_EFFECTS("effects: not used: %.400s", why.text);
+        return FW_OK;
+    }
+    leave_out(c, path, out, set, size);
+    return FW_OK;
+}
+
+/* ---- both ------------------------------------------------------------------------------------------------------- */
+
+/* A set that the rules refuse (something else needs what was to be left out) is not taken. */
+static fw_status apply_both(fw_campaign *c, const fw_choice_wanted *w, extra *x, fw_choice *out, fw_msg *m)
+{
+    fw_msg    why = {""};
+    fw_status s = apply(c, w, x, &why);
+    if (s == FW_E_INPUT && x->effects[0]) {
+        x->effects[0] = '\0', out->dropped = 0;
+        SAY_EFFECTS("effects: none is left out, as %.400s", why.text);
+        return apply(c, w, x, m);
+    }
+    if (s != FW_OK && m) *m = why;
+    return s;
+}
+
+fw_status fw_choice_campaign(fw_campaign *c, const fw_choice_wanted *w, fw_choice *out, fw_msg *m)
+{
+    extra x;
+    memset(out, 0, sizeof *out);
+    memset(&x, 0, sizeof x);
+    FW_TRY(fw_config_campaign(c, w->campaign, w->n_sets, w->sets, w->seed, m));
+    fw_status s = find_numerics(c, w, out, &x.numerics, m);
+    if (s == FW_OK) s = find_effects(c, w, out, x.effects, sizeof x.effects, m);
+    if (s == FW_OK) s = apply_both(c, w, &x, out, m);
     if (s != FW_OK) fw_campaign_free(c);
     return s;
 }

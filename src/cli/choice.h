@@ -1,14 +1,20 @@
-/* The choice of `floewear accuracy` as `run` and `plan` take it: from NAME.accuracy.h5 beside the results, or from the file that
- * --accuracy-from names, if it belongs to this very campaign (all settings equal). What it chose is applied like --set, so that it
- * stands in the campaign's settings, in its hash, in the journal and in NAME.h5. */
+/* The choices of `floewear accuracy` and `floewear plan --effects` as `run` and `plan` take it: from NAME.accuracy.h5 and NAME.effects.h5 beside the
+ * results, or from the file that --accuracy-from names, if it belongs to this very campaign (all settings equal). What it chose is applied like
+ * --set, so that it stands in the campaign's settings, in its hash, in the journal and in NAME.h5.
+ *
+ * Effects are left out only under `effects: auto` and an effects_tolerance above 0 (study/effects_ledger.h has the rule): a file that says
+ * itself what is on has decided. */
 #ifndef FW_CLI_CHOICE_H
 #define FW_CLI_CHOICE_H
 
 #include "cli/accuracy_file.h"
 #include "floewear/campaign.h"
+#include "study/effects_ledger.h"
 
-/* "results/a.h5", "results/a" and "results/a.accuracy.h5" all mean results/a.accuracy.h5. */
-fw_status fw_choice_path(char *path, size_t size, const char *out, fw_msg *m);
+typedef enum fw_choice_file { FW_CHOICE_ACCURACY, FW_CHOICE_EFFECTS } fw_choice_file;
+
+/* "results/a.h5", "results/a", "results/a.accuracy.h5" and "results/a.effects.h5" all mean results/a.accuracy.h5, or results/a.effects.h5. */
+fw_status fw_choice_path(char *path, size_t size, const char *out, fw_choice_file kind, fw_msg *m);
 
 typedef struct fw_choice_wanted {
     const char        *campaign; /* the file */
@@ -23,6 +29,10 @@ typedef struct fw_choice {
     bool        is_taken;
     char        line[512]; /* which choice is used and why, for stderr */
     fw_measured measured;  /* the ledger's rows: the file's, else the Raahe campaign's */
+
+    char              effects_line[512]; /* which effects are left out and why, or why none is; empty: there is nothing to say */
+    uint32_t          dropped;           /* fw_effect_bit set */
+    fw_effects_ledger effects;           /* no rows: not measured */
 } fw_choice;
 
 /* The campaign with the choice applied. A file beside the results that is damaged or belongs to another campaign is passed over, and

@@ -95,7 +95,7 @@ static fw_status accuracy(const accuracy_arguments *a, fw_msg *m)
     fw_campaign c;
     FW_TRY(fw_study_check_alone(m));
     FW_TRY(fw_config_campaign(&c, a->of.campaign, a->of.n_sets, a->of.sets, a->of.seed, m));
-    fw_status s = fw_choice_path(path, sizeof path, a->out ? a->out : c.name, m);
+    fw_status s = fw_choice_path(path, sizeof path, a->out ? a->out : c.name, FW_CHOICE_ACCURACY, m);
     if (s == FW_OK) s = fw_study_check_place(path, FW_ACCURACY_FILETYPE, m);
     if (s == FW_OK) s = measure(a, &c, path, m);
     fw_campaign_free(&c);

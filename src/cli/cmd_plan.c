@@ -8,22 +8,26 @@
 #include "cli/choice.h"
 #include "cli/commands.h"
 #include "cli/config.h"
+#include "cli/campaign_arguments.h"
+#include "cli/effects_print.h"
 #include "cli/json.h"
 #include "cli/output.h"
+#include "cli/plan_effects.h"
 #include "effects/effects.h"
 #include "floewear/campaign.h"
 #include "realisation/accuracy.h"
 #include "realisation/cost.h"
 #include "realisation/facts.h"
 
-enum { MAX_SETS = 64, KEY_SET = 1000, KEY_JSON, KEY_PILOT, KEY_SEED, KEY_ACCURACY };
+enum { MAX_SETS = 64, KEY_SET = 1000, KEY_JSON, KEY_PILOT, KEY_SEED, KEY_ACCURACY, KEY_EFFECTS, KEY_BUDGET, KEY_WHOLE };
 
 typedef struct arguments {
-    const char *campaign, *accuracy_from;
+    const char *campaign, *accuracy_from, *out;
     const char *sets[MAX_SETS];
     size_t      n_sets;
-    bool        is_json;
-    long        pilot;
+    bool        is_json, is_effects, is_quiet;
+    long        pilot, n_whole;
+    double      effects_budget_s;
     int64_t     seed;
 } arguments;
 
@@ -38,6 +42,15 @@ static error_t parse(int key, char *arg, struct argp_state *state)
         return 0;
     case KEY_JSON: a->is_json = true; return 0;
     case KEY_ACCURACY: a->accuracy_from = arg; return 0;
+    case KEY_EFFECTS: a->is_effects = true; return 0;
+    case KEY_BUDGET: return fw_argument_duration("--effects-budget", arg, state, &a->effects_budget_s);
+    case KEY_WHOLE:
+        a->n_whole = strtol(arg, &end, 10);
+        if (*end || end == arg || a->n_whole < 1 || a->n_whole > 10000)
+            argp_error(state, "--effects-whole takes a whole number from 1 to 10000, not '%s'", arg);
+        return 0;
+    case 'o': a->out = arg; return 0;
+    case 'q': a->is_quiet = true; return 0;
     case KEY_PILOT:
         a->pilot = strtol(arg, &end, 10);
         if (*end || end == arg || a->pilot < 0 || a->pilot > 10000)
@@ -58,6 +71,11 @@ static error_t parse(int key, char *arg, struct argp_state *state)
 
 static const struct argp_option OPTIONS[] = {
     {"pilot", KEY_PILOT, "N", 0, "realisations of the pilot (default: up to 16, as long as they are expected to take minutes; 0: none)", 0},
+    {"effects", KEY_EFFECTS, NULL, 0, "measure instead what each effect and open choice moves and costs, on the same ice; writes OUT.effects.h5, which run, plan and report of this campaign show", 1},
+    {"effects-budget", KEY_BUDGET, "TIME", 0, "choose the number of windows for about this much CPU time (default 5min)", 1},
+    {"effects-whole", KEY_WHOLE, "N", 0, "N whole windows of the campaign instead of short ones: what those are to be checked against", 1},
+    {"output", 'o', "OUT", 0, "stem of the files that belong to this campaign (default: its name, in the current folder)", 0},
+    {"quiet", 'q', NULL, 0, "no progress on stderr", 0},
     {"accuracy-from", KEY_ACCURACY, "FILE", 0, "numerics chosen by floewear accuracy (default: NAME.accuracy.h5, if it is there)", 0},
     {"set", KEY_SET, "KEY=VALUE", 0, "override a key by its dotted path", 0},
     {"seed", KEY_SEED, "N", 0, "override the seed", 0},
@@ -68,7 +86,7 @@ static const struct argp ARGP = {OPTIONS,
                                  parse,
                                  "CAMPAIGN.yaml",
                                  "Shows the effects the scenes call for and why, the accuracy settings, and the cost "
-                                 "and precision that a pilot predicts. Writes no results.",
+                                 "and precision that a pilot predicts. Writes no results; with --effects the measured effects ledger.",
                                  NULL,
                                  NULL,
                                  NULL};
@@ -151,7 +169,7 @@ static double predicted_half_width(const fw_campaign *c, const pilot *p, double 
 }
 
 /* On or off, and why (FW_REASON_SIZE): the rule's own words, or that the file overrides them. */
-static bool effect_state(const fw_campaign *c, const fw_scene_facts *f, const fw_effect *e, char *reason)
+static bool effect_state(const fw_campaign *c, const fw_scene_facts *f, const fw_choice *choice, const fw_effect *e, char *reason)
 {
     char rule[FW_REASON_SIZE];
     bool is_on = fw_effects_have(&c->model, e->bit), is_needed = e->is_needed(&c->model, f, rule);
@@ -159,6 +177,8 @@ static bool effect_state(const fw_campaign *c, const fw_scene_facts *f, const fw
         snprintf(reason, FW_REASON_SIZE, "%s", rule);
     else if (is_on)
         snprintf(reason, FW_REASON_SIZE, "asked for by the file (auto: off, %.160s)", rule);
+    else if (choice->dropped & (uint32_t)e->bit)
+        snprintf(reason, FW_REASON_SIZE, "left out, as it was measured to move less than effects_tolerance: %s", e->off);
     else
         snprintf(reason, FW_REASON_SIZE, "switched off by the file: %s", e->off);
     return is_on;
@@ -196,7 +216,7 @@ static void print_json(const fw_campaign *c, const fw_scene_facts *facts, const 
     fw_json_begin_array(&j);
     for (size_t i = 0; i < n; i++) {
         char reason[FW_REASON_SIZE];
-        bool is_on = effect_state(c, facts, e[i], reason);
+        bool is_on = effect_state(c, facts, choice, e[i], reason);
         fw_json_begin_object(&j);
         fw_json_key(&j, "name"), fw_json_string(&j, e[i]->name);
         fw_json_key(&j, "on"), fw_json_bool(&j, is_on);
@@ -204,6 +224,8 @@ static void print_json(const fw_campaign *c, const fw_scene_facts *facts, const 
         fw_json_end(&j);
     }
     fw_json_end(&j);
+    fw_json_key(&j, "effects_choice"), fw_json_string(&j, choice->effects_line);
+    fw_json_key(&j, "effects_ledger"), fw_effects_json_rows(&j, &choice->effects);
     fw_accuracy_line lines[16];
     size_t           n_lines = fw_accuracy_lines(&c->model, speed, lines, 16);
     fw_json_key(&j, "numerics"), fw_json_string(&j, choice->line);
@@ -245,16 +267,31 @@ static void print_json(const fw_campaign *c, const fw_scene_facts *facts, const 
     fw_json_end(&j);
 }
 
-static void print_effects(const fw_campaign *c, const fw_scene_facts *facts)
+/* With what `plan --effects` measured, where its file is there. */
+static void print_effects(const fw_campaign *c, const fw_scene_facts *facts, const fw_choice *choice)
 {
+    static const fw_change   NONE = {NAN, NAN, NAN};
+    const fw_effects_ledger *l = &choice->effects;
     const fw_effect *const *e;
     size_t                  n = fw_effects_list(&e);
-    printf("  %-14s %-3s  %s\n", "effect", "on", "why");
+    printf("  %-14s %-3s ", "effect", "on");
+    if (l->n_rows) printf("%10s %-26s P%-25g", "CPU share", "switched: mean", l->percentile);
+    printf(" why\n");
     for (size_t i = 0; i < n; i++) {
         char reason[FW_REASON_SIZE];
-        bool is_on = effect_state(c, facts, e[i], reason);
-        printf("  %-14s %-3s  %s\n", e[i]->name, is_on ? "on" : "off", reason);
+        bool is_on = effect_state(c, facts, choice, e[i], reason);
+        printf("  %-14s %-3s ", e[i]->name, is_on ? "on" : "off");
+        if (l->n_rows) {
+            const fw_effects_row *row = fw_effects_find_row(l, e[i]->name);
+            char                  mean[48], percentile[48], share[24] = "-";
+            if (row && isfinite(row->cpu_share)) snprintf(share, sizeof share, "%.1f %%", 100 * row->cpu_share);
+            printf("%10s %-26s %-26s", share, fw_effects_say_change(mean, sizeof mean, row ? &row->mean : &NONE),
+                   fw_effects_say_change(percentile, sizeof percentile, row ? &row->percentile : &NONE));
+        }
+        printf(" %s\n", reason);
     }
+    if (l->n_rows) printf("  (each switched against the others, measured %s)\n", l->origin);
+    if (choice->effects_line[0]) printf("  %s\n", choice->effects_line);
 }
 
 static void print_text(const arguments *a, const fw_campaign *c, const fw_scene_facts *facts, const fw_choice *choice, const expected *of,
@@ -262,7 +299,7 @@ static void print_text(const arguments *a, const fw_campaign *c, const fw_scene_
 {
     size_t wanted = a->pilot < 0 ? USUAL_PILOT : (size_t)a->pilot;
     printf("plan of campaign %s\n\n", c->name);
-    print_effects(c, facts);
+    print_effects(c, facts, choice);
     fw_accuracy_line lines[16];
     size_t           n_lines = fw_accuracy_lines(&c->model, speed, lines, 16);
     printf("\naccuracy %g %% of a window's depth, at %.3g m/s; %s\n", 100 * c->model.accuracy, speed, choice->line);
@@ -295,34 +332,49 @@ static void print_text(const arguments *a, const fw_campaign *c, const fw_scene_
         printf("%s%s is read and checked but not applied in this version\n", i ? "" : "\n", c->not_applied[i]);
 }
 
-int fw_cmd_plan(int argc, char **argv)
+static fw_status plan(const arguments *a, fw_msg *m)
 {
-    arguments a = {.pilot = -1, .seed = -1};
-    argp_parse(&ARGP, argc, argv, 0, NULL, &a);
-    fw_campaign c = {0};
-    fw_msg      m = {""};
-    pilot       p = {0};
-    expected    e = {0, 0};
-    fw_choice      choice;
-    fw_scene_facts facts;
+    fw_campaign      c = {0};
+    pilot            p = {0};
+    expected         e = {0, 0};
+    fw_choice        choice;
+    fw_scene_facts   facts;
     fw_choice_wanted wanted = {
-        .campaign = a.campaign, .n_sets = a.n_sets, .sets = a.sets, .seed = a.seed, .from = a.accuracy_from};
-    fw_status s = fw_choice_campaign(&c, &wanted, &choice, &m);
-    if (s == FW_OK) s = fw_facts_campaign(&c.model, &c.site, &facts, &m);
-    if (s == FW_OK) s = expect(&c, &e, &m);
-    if (s == FW_OK) s = run_pilot(&c, a.pilot, &p, &m);
+        .campaign = a->campaign, .n_sets = a->n_sets, .sets = a->sets, .seed = a->seed, .from = a->accuracy_from, .out = a->out};
+    FW_TRY(fw_choice_campaign(&c, &wanted, &choice, m));
+    fw_status s = fw_facts_campaign(&c.model, &c.site, &facts, m);
+    if (s == FW_OK) s = expect(&c, &e, m);
+    if (s == FW_OK) s = run_pilot(&c, a->pilot, &p, m);
     if (s == FW_OK) {
         fw_scenario sc;
         fw_campaign_scenario(&c, 0, &sc);
         forecast f = predict(&c, &p);
         double   speed = p.n ? p.mean_speed : sc.speed;
-        if (a.is_json)
+        if (a->is_json)
             print_json(&c, &facts, &choice, &e, &p, &f, speed);
         else
-            print_text(&a, &c, &facts, &choice, &e, &p, &f, speed);
-        s = fw_output_finish(&m);
+            print_text(a, &c, &facts, &choice, &e, &p, &f, speed);
+        s = fw_output_finish(m);
     }
-    if (s != FW_OK) fprintf(stderr, "floewear plan: %s\n", m.text[0] ? m.text : fw_status_sentence(s));
     fw_campaign_free(&c);
+    return s;
+}
+
+int fw_cmd_plan(int argc, char **argv)
+{
+    arguments a = {.pilot = -1, .seed = -1};
+    fw_msg    m = {""};
+    argp_parse(&ARGP, argc, argv, 0, NULL, &a);
+    fw_plan_effects_wanted effects = {.campaign = a.campaign,
+                                      .n_sets = a.n_sets,
+                                      .sets = a.sets,
+                                      .seed = a.seed,
+                                      .out = a.out,
+                                      .cpu_budget_s = a.effects_budget_s,
+                                      .n_windows = (size_t)a.n_whole,
+                                      .is_json = a.is_json,
+                                      .is_quiet = a.is_quiet};
+    fw_status s = a.is_effects ? fw_plan_effects(&effects, &m) : plan(&a, &m);
+    if (s != FW_OK) fprintf(stderr, "floewear plan: %s\n", m.text[0] ? m.text : fw_status_sentence(s));
     return fw_status_exit_code(s);
 }

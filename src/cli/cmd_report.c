@@ -9,6 +9,7 @@
 #include "cli/campaign_arguments.h"
 #include "cli/commands.h"
 #include "cli/config.h"
+#include "cli/effects_tables.h"
 #include "cli/output.h"
 #include "cli/report_table.h"
 
@@ -122,12 +123,13 @@ static fw_status find_law(const fw_campaign *c, const char *name, size_t *law, f
 }
 
 /* Files of earlier versions have no such table: what this version knows stands in for it. */
-static fw_status read_measured(const char *path, const fw_campaign *c, fw_measured *out, fw_msg *m)
+static fw_status read_measured(const char *path, const fw_campaign *c, fw_measured *out, fw_effects_ledger *effects, fw_msg *m)
 {
     fw_tables *t;
     fw_measured_default(out, &c->model);
     FW_TRY(fw_tables_open(&t, path, NULL, m));
     fw_status s = fw_tables_has(t, "accuracy") ? fw_accuracy_file_read_measured(t, out, m) : FW_OK;
+    if (s == FW_OK) s = fw_effects_tables_read(t, effects, m);
     fw_tables_close(t);
     return s;
 }
@@ -140,8 +142,9 @@ static fw_status report_campaign(const report_arguments *a, const fw_campaign *c
         .n_percentiles = a->n_percentiles, .percentiles = a->percentiles, .n_points = a->n_points, .points = a->points};
     fw_answer   answer;
     fw_measured measured;
-    FW_TRY(read_measured(a->path, c, &measured, m));
-    o.measured = &measured;
+    fw_effects_ledger effects;
+    FW_TRY(read_measured(a->path, c, &measured, &effects, m));
+    o.measured = &measured, o.effects = &effects;
     FW_TRY(find_law(c, a->law, &o.law, m));
     FW_TRY(fw_answer_make(&answer, c, &source, &o, m));
     if (a->is_json) {

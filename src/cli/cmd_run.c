@@ -179,7 +179,8 @@ static fw_status run_answer(run_session *s, uint64_t n, const run_arguments *a, 
     fw_answer_options   options       = {.n_percentiles = sizeof percentiles / sizeof percentiles[0],
                                          .percentiles   = percentiles,
                                          .confidence    = s->campaign->precision.confidence,
-                                         .measured      = &s->choice.measured};
+                                         .measured      = &s->choice.measured,
+                                         .effects       = &s->choice.effects};
     fw_answer        answer;
     fw_status        status;
 
@@ -222,6 +223,7 @@ static fw_status run_campaign(run_session *s, const run_arguments *a, fw_msg *m)
 
     if (c->precision.half_width > 0.0) run.stop = (fw_stop_rule){.look = run_look, .self = s};
     if (!a->is_quiet) fprintf(stderr, "%s\n", s->choice.line);
+    if (s->choice.effects_line[0] && (!a->is_quiet || s->choice.dropped)) fprintf(stderr, "%s\n", s->choice.effects_line);
     fw_progress_line_start(&s->line, stderr, a->is_quiet);
     if (s->files.n_have && !a->is_quiet) {
         fprintf(stderr, "%s: going on from %zu of %" PRIu64 " realisations\n", s->files.journal_path, s->files.n_have,

@@ -92,6 +92,7 @@ fw_status fw_file_read_effects(const fw_reader *r, const fw_scene_facts *f, fw_m
 
     model->effects = fw_effects_auto(model, f);
     if (n) FW_TRY(override(r, n, &model->effects));
+    if (n && n->kind != FW_NODE_SCALAR) model->given |= (uint32_t)FW_GIVEN_EFFECTS;
     const char *why = fw_effects_refuse(model, f, &key);
     return why ? fw_yaml_fail(node_at(r->root, key), r->m, "%s: %s", key, why) : FW_OK;
 }

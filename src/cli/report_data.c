@@ -1,6 +1,7 @@
 /* CSV and JSON of an answer. */
 #include <math.h>
 
+#include "cli/effects_print.h"
 #include "cli/json.h"
 #include "cli/report_table.h"
 
@@ -165,6 +166,7 @@ void fw_report_print_json(FILE *to, const fw_campaign *c, const fw_answer *a)
     json_points(&j, a);
     json_life(&j, a);
     json_ledger(&j, a);
+    fw_json_key(&j, "effects_ledger"), fw_effects_json_rows(&j, &a->effects);
     fw_json_key(&j, "not_applied");
     fw_json_begin_array(&j);
     for (size_t i = 0; i < c->n_not_applied; i++) fw_json_string(&j, c->not_applied[i]);

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "cli/effects_print.h"
 #include "floewear/status.h"
 
 static size_t percentiles_per_point(const fw_answer *a) { return a->n_points ? a->n_percentiles / a->n_points : 0; }
@@ -200,6 +201,13 @@ static void print_ledger(FILE *to, const fw_answer *a)
     }
 }
 
+static void print_effects(FILE *to, const fw_answer *a)
+{
+    if (a->effects.n_rows == 0) return;
+    fprintf(to, "\neffects and open choices, switched one at a time on the same ice, %s\n", a->effects.origin);
+    fw_effects_print_rows(to, &a->effects);
+}
+
 static void print_limits(FILE *to, const fw_campaign *c)
 {
     fputc('\n', to);
@@ -218,5 +226,6 @@ void fw_report_print_table(FILE *to, const fw_campaign *c, const fw_answer *a)
     print_governing(to, c, a);
     print_life(to, c, a);
     print_ledger(to, a);
+    print_effects(to, a);
     print_limits(to, c);
 }

@@ -1,9 +1,10 @@
 #include "cli/report_tables_h5.h"
 
 #include "cli/accuracy_file.h"
+#include "cli/effects_tables.h"
 #include "cli/table_builder.h"
 
-enum { N_TABLES = 5 };
+enum { N_TABLES = 5 + FW_EFFECTS_TABLES };
 
 static void build_percentiles(fw_table_builder *b, const fw_answer *a, fw_msg *m)
 {
@@ -70,6 +71,7 @@ static void build_ledger(fw_table_builder *b, const fw_answer *a, fw_msg *m)
 fw_status fw_report_write(const char *path, const fw_campaign *c, const fw_record_source *records, const fw_answer *a,
                           fw_msg *m)
 {
+    size_t           n = a->effects.n_rows ? N_TABLES : N_TABLES - FW_EFFECTS_TABLES;
     fw_table_builder builders[N_TABLES];
     fw_table         tables[N_TABLES];
     fw_status        s = FW_OK;
@@ -78,11 +80,12 @@ fw_status fw_report_write(const char *path, const fw_campaign *c, const fw_recor
     build_life(&builders[2], a, m);
     build_ledger(&builders[3], a, m);
     fw_accuracy_file_build_measured(&builders[4], &a->measured, m);
-    for (int i = 0; i < N_TABLES; i++) {
+    if (a->effects.n_rows) fw_effects_tables_build(&builders[5], &a->effects, m);
+    for (size_t i = 0; i < n; i++) {
         tables[i] = builders[i].table;
         if (s == FW_OK) s = builders[i].status;
     }
-    if (s == FW_OK) s = fw_results_write(path, c, records, N_TABLES, tables, m);
-    for (int i = 0; i < N_TABLES; i++) fw_table_free(&builders[i]);
+    if (s == FW_OK) s = fw_results_write(path, c, records, n, tables, m);
+    for (size_t i = 0; i < n; i++) fw_table_free(&builders[i]);
     return s;
 }

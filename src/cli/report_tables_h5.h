@@ -1,5 +1,5 @@
 /* NAME.h5 of an answer: /percentiles, /points, /service_life and /ledger are what the report prints, /accuracy what its
- * numerical rows were made from. */
+ * numerical rows were made from, /effects and /effects_summary its rows of effects, where they were measured. */
 #ifndef FW_CLI_REPORT_TABLES_H5_H
 #define FW_CLI_REPORT_TABLES_H5_H
 

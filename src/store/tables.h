@@ -1,4 +1,4 @@
-/* Files of finished tables (NAME.accuracy.h5), and single tables read back from them or from NAME.h5.
+/* Files of finished tables (NAME.accuracy.h5, NAME.effects.h5), and single tables read back from them or from NAME.h5.
  *
  * Root attributes, groups, units and long_name as in NAME.h5 (store/results.h); sealed and renamed like it. */
 #ifndef FW_STORE_TABLES_H
@@ -7,6 +7,7 @@
 #include "store/results.h"
 
 #define FW_ACCURACY_FILETYPE "floewear accuracy"
+#define FW_EFFECTS_FILETYPE  "floewear effects"
 
 /* FW_E_IO: unwritable, disk full, in use; FW_E_MISMATCH: path is there and is another kind of file. On error path is as it was. */
 fw_status fw_tables_write(const char *path, const char *filetype, const fw_campaign *c, size_t n_tables,

@@ -257,6 +257,7 @@ fw_status fw_answer_make(fw_answer *out, const fw_campaign *c, const fw_answer_s
             out->measured = *o->measured;
         else
             fw_measured_default(&out->measured, &c->model);
+        if (o && o->effects) out->effects = *o->effects;
         out->design_percentile = choose_design_percentile(c, &q);
         s = answer(out, c, &q, &d, m);
     }

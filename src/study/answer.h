@@ -4,6 +4,7 @@
 #define FW_STUDY_ANSWER_H
 
 #include "floewear/campaign.h"
+#include "study/effects_ledger.h"
 #include "study/measured.h"
 
 /* Reads record id (0 .. n-1) into r, which is initialised with the campaign's sizes. */
@@ -21,6 +22,7 @@ typedef struct fw_answer_options {
     size_t        law;         /* index into the campaign's laws */
     double        confidence;  /* 0.95 */
     const fw_measured *measured; /* numerical errors for the ledger; NULL: the Raahe campaign's */
+    const fw_effects_ledger *effects; /* what effects and open choices move; NULL or no rows: not measured */
 } fw_answer_options;
 
 typedef struct fw_percentile_row {
@@ -64,6 +66,7 @@ typedef struct fw_answer {
     size_t             n_life;
     fw_life_row       *life;
     fw_measured        measured; /* what the ledger's numerical rows are made from */
+    fw_effects_ledger  effects;  /* what its rows of switched-off effects are made from */
     size_t             n_ledger;
     fw_ledger_row     *ledger;
 } fw_answer;

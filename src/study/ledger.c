@@ -146,6 +146,62 @@ static void unmeasured(fw_ledger_row *row, const char *name, const char *shrinks
     SAY(row->cost_to_halve, "not measured");
 }
 
+/* ---- effects that are off --------------------------------------------------------------------------------------- */
+
+/* Of the design number of this run, in which the effect is off: it may have been on where it was measured, and was left out since. */
+static double amount_of(const fw_effects_row *e)
+{
+    const fw_change *c = isnan(e->percentile.change) ? &e->mean : &e->percentile;
+    double           amount = fabs(e->was_on ? -c->change / (1 + c->change) : c->change), error = 0.25 * (c->high - c->low);
+    return error > amount ? error : amount; /* what scatter hides may be as large as the scatter */
+}
+
+static void say_change(char *to, size_t size, const fw_change *c)
+{
+    if (isnan(c->change))
+        write_text(to, size, "-");
+    else if (isnan(c->low) || isnan(c->high))
+        write_text(to, size, "%+.2g %%", 100 * c->change);
+    else
+        write_text(to, size, "%+.2g [%+.2g, %+.2g] %%", 100 * c->change, 100 * c->low, 100 * c->high);
+}
+
+static void switched_off(fw_ledger_row *row, const fw_effects_ledger *l, const fw_effects_row *e, const fw_window *w)
+{
+    char   mean[64], percentile[64];
+    double factor = e->was_on ? 1 / (1 - e->evaluations_saved) : 1 - e->evaluations_saved, cpu = e->was_on ? 1 / (1 - e->cpu_saved) : 1 - e->cpu_saved;
+    say_change(mean, sizeof mean, &e->mean);
+    say_change(percentile, sizeof percentile, &e->percentile);
+    SAY(row->row, "%s", e->name);
+    row->amount = amount_of(e);
+    SAY(row->shrinks_with, "effects: {%s: on}; %s gave mean %s, P%g %s %.100s", e->name, e->change, mean, l->percentile, percentile, l->origin);
+    SAY(row->cost_to_halve, "all again with it, %.3g times the work (%.3g force evaluations)", factor, factor * w->depth->evaluations);
+    row->cost_to_halve_cpu_s = cpu * w->depth->cpu_s;
+}
+
+/* Their sum, and each of them that was measured. Returns the number of rows. */
+static size_t switched_off_effects(fw_ledger_row *row, const fw_campaign *c, const fw_effects_ledger *l, const fw_window *w)
+{
+    fw_ledger_row *sum = row++;
+    double         amount = 0;
+    if (l->n_rows == 0) {
+        unmeasured(sum, "switched-off effects", "floewear plan --effects measures what they move");
+        return 1;
+    }
+    for (size_t i = 0; i < l->n_rows; i++) {
+        const fw_effects_row *e = &l->rows[i];
+        if (!e->bit || (c->model.effects & e->bit) || e->note[0]) continue;
+        switched_off(row, l, e, w);
+        if (row->amount > 0) amount += row->amount;
+        row++;
+    }
+    SAY(sum->row, "switched-off effects");
+    sum->amount = amount;
+    SAY(sum->shrinks_with, "%s", row > sum + 1 ? "the rows below, summed as if they all went one way" : "none is off that could be on here");
+    SAY(sum->cost_to_halve, "%s", row > sum + 1 ? "see there" : "none");
+    return (size_t)(row - sum);
+}
+
 static void life_assumption(fw_ledger_row *row, const fw_campaign *c)
 {
     unmeasured(row, "life: independent windows", "windows that resemble their neighbours scatter a life more");
@@ -164,7 +220,7 @@ static void between_years(fw_ledger_row *row, const fw_campaign *c)
 fw_status fw_ledger_rows(fw_answer *a, const fw_campaign *c, const fw_window *w, const fw_percentile_row *governing,
                          fw_msg *m)
 {
-    enum { MOST = 11 + FW_MEASURED_ROWS };
+    enum { MOST = 11 + FW_MEASURED_ROWS + FW_EFFECTS_ROWS };
     FW_TRY(fw_alloc(&a->ledger, MOST, sizeof *a->ledger, "rows of the ledger", m));
     for (size_t i = 0; i < MOST; i++) a->ledger[i].cost_to_halve_cpu_s = NAN;
     fw_ledger_row *row = a->ledger;
@@ -176,7 +232,7 @@ fw_status fw_ledger_rows(fw_answer *a, const fw_campaign *c, const fw_window *w,
     packed_ice(row++, w);
     unmeasured(row++, "ice field against scenario", "more realisations");
     unmeasured(row++, "law and its scatter", "laboratory and field data (a published fit has R2 66 %)");
-    unmeasured(row++, "switched-off effects", "switching them on (effects:)");
+    row += switched_off_effects(row, c, &a->effects, w);
     if (c->service.is_asked) {
         between_years(row++, c);
         life_assumption(row++, c);

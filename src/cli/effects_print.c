@@ -1,0 +1,165 @@
+#include "cli/effects_print.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- text ------------------------------------------------------------------------------------------------------- */
+
+/* Twice and more, or less than half, is easier read as a factor. */
+const char *fw_effects_say_change(char *text, size_t size, const fw_change *c)
+{
+    bool is_factor = c->change >= 1 || c->change <= -0.5, has_interval = isfinite(c->low) && isfinite(c->high);
+    if (isnan(c->change))
+        snprintf(text, size, "-");
+    else if (c->change == 0 && c->low == 0 && c->high == 0)
+        snprintf(text, size, "0");
+    else if (is_factor && has_interval)
+        snprintf(text, size, "x%.3g [%.3g, %.3g]", 1 + c->change, 1 + c->low, 1 + c->high);
+    else if (is_factor)
+        snprintf(text, size, "x%.3g", 1 + c->change);
+    else if (has_interval)
+        snprintf(text, size, "%+.2g [%+.2g, %+.2g] %%", 100 * c->change, 100 * c->low, 100 * c->high);
+    else
+        snprintf(text, size, "%+.2g %%", 100 * c->change);
+    return text;
+}
+
+static const char *say_share(char *text, size_t size, double share)
+{
+    if (isnan(share))
+        snprintf(text, size, "-");
+    else
+        snprintf(text, size, share == 0 ? "0" : "%.1f %%", 100 * share);
+    return text;
+}
+
+void fw_effects_print_rows(FILE *to, const fw_effects_ledger *l)
+{
+    char x[6][48], head[24];
+    if (l->n_rows == 0) return;
+    snprintf(head, sizeof head, "P%g", l->percentile);
+    fprintf(to, "  %-27s %-16s %-26s %-26s %10s %10s\n", "", "", "mean", head, "CPU saved", "CPU share");
+    for (size_t i = 0; i < l->n_rows; i++) {
+        const fw_effects_row *r = &l->rows[i];
+        fprintf(to, "  %-27s %-16s ", r->name, r->change);
+        if (r->note[0])
+            fprintf(to, "%s\n", r->note);
+        else
+            fprintf(to, "%-26s %-26s %10s %10s  %s\n", fw_effects_say_change(x[0], sizeof x[0], &r->mean),
+                    fw_effects_say_change(x[1], sizeof x[1], &r->percentile), say_share(x[2], sizeof x[2], r->cpu_saved),
+                    say_share(x[3], sizeof x[3], r->cpu_share), r->why);
+    }
+}
+
+static void print_costs(FILE *to, const fw_effects_ledger *l)
+{
+    double cpu = l->cpu_bare, evaluations = l->evaluations_bare;
+    for (size_t i = 0; i < l->n_rows; i++)
+        if (l->rows[i].is_effect && isfinite(l->rows[i].cpu_share)) cpu += l->rows[i].cpu_share, evaluations += l->rows[i].evaluations_share;
+    fprintf(to, "\ncost shares, effects switched off one after another (a share below 0: what stays costs more without it)\n");
+    fprintf(to, "  %-27s %10s %18s\n", "", "CPU", "force evaluations");
+    for (size_t i = 0; i < l->n_rows; i++) {
+        const fw_effects_row *r = &l->rows[i];
+        if (r->is_effect && isfinite(r->cpu_share)) fprintf(to, "  %-27s %8.1f %% %16.1f %%\n", r->name, 100 * r->cpu_share, 100 * r->evaluations_share);
+    }
+    fprintf(to, "  %-27s %8.1f %% %16.1f %%\n", "drift and touch", 100 * l->cpu_bare, 100 * l->evaluations_bare);
+    fprintf(to, "  %-27s %8.1f %% %16.1f %%  of %.3g CPU s and %.4g evaluations; a difference of two ways is known to %.1g %% of processor time\n", "sum",
+            100 * cpu, 100 * evaluations, l->cpu_s, l->evaluations, 100 * l->cpu_noise);
+}
+
+void fw_effects_print_text(FILE *to, const fw_campaign *c, const fw_effects_ledger *l)
+{
+    size_t failed = 0;
+    fprintf(to, "%s: what each effect and open choice moves, one at a time, on the same ice\n", c->name);
+    if (isfinite(l->way))
+        fprintf(to, "%zu windows of %g m of ice each, scaled to %g s", l->n_windows, l->way, c->model.window);
+    else
+        fprintf(to, "%zu windows of %g s", l->n_windows, c->model.window);
+    fprintf(to, "; window depth at point %zu (%g deg): mean %.3g mm, P%g %.3g mm; [%g %% interval]\n\n", l->point, c->points.bearing[l->point - 1],
+            l->mean_mm, l->percentile, l->percentile_mm, 100 * l->confidence);
+    fw_effects_print_rows(to, l);
+    for (size_t i = 0; i < l->n_rows; i++)
+        if (l->rows[i].n_failed > failed) failed = l->rows[i].n_failed;
+    if (failed) fprintf(to, "  of the windows up to %zu failed one way or the other and are left out of that row\n", failed);
+    print_costs(to, l);
+}
+
+/* ---- JSON ------------------------------------------------------------------------------------------------------- */
+
+static void number(fw_json *j, const char *key, double x) { fw_json_key(j, key), fw_json_number(j, x); }
+static void count(fw_json *j, const char *key, size_t n) { fw_json_key(j, key), fw_json_integer(j, (int64_t)n); }
+static void string(fw_json *j, const char *key, const char *s) { fw_json_key(j, key), fw_json_string(j, s); }
+
+static void json_change(fw_json *j, const char *key, const fw_change *c)
+{
+    fw_json_key(j, key);
+    fw_json_begin_object(j);
+    number(j, "change", c->change);
+    number(j, "low", c->low);
+    number(j, "high", c->high);
+    fw_json_end(j);
+}
+
+void fw_effects_json_rows(fw_json *j, const fw_effects_ledger *l)
+{
+    if (l->n_rows == 0) {
+        fw_json_null(j);
+        return;
+    }
+    fw_json_begin_array(j);
+    for (size_t i = 0; i < l->n_rows; i++) {
+        const fw_effects_row *r = &l->rows[i];
+        fw_json_begin_object(j);
+        string(j, "name", r->name);
+        string(j, "change", r->change);
+        string(j, "why", r->why);
+        string(j, "not_measured", r->note[0] ? r->note : NULL);
+        fw_json_key(j, "is_effect"), fw_json_bool(j, r->is_effect);
+        fw_json_key(j, "was_on"), fw_json_bool(j, r->was_on);
+        json_change(j, "mean", &r->mean);
+        json_change(j, "percentile", &r->percentile);
+        number(j, "evaluations_saved", r->evaluations_saved);
+        number(j, "cpu_saved", r->cpu_saved);
+        number(j, "evaluations_share", r->evaluations_share);
+        number(j, "cpu_share", r->cpu_share);
+        count(j, "n_pairs", r->n_pairs);
+        count(j, "n_failed", r->n_failed);
+        fw_json_end(j);
+    }
+    fw_json_end(j);
+}
+
+void fw_effects_print_json(FILE *to, const fw_campaign *c, const fw_effects_ledger *l)
+{
+    fw_json j = fw_json_onto(to);
+    fw_json_begin_object(&j);
+    string(&j, "campaign", c->name);
+    count(&j, "n_windows", l->n_windows);
+    number(&j, "way_m", l->way);
+    count(&j, "point", l->point);
+    number(&j, "bearing_deg", c->points.bearing[l->point - 1]);
+    number(&j, "percentile", l->percentile);
+    number(&j, "confidence", l->confidence);
+    number(&j, "mean_mm", l->mean_mm);
+    number(&j, "percentile_mm", l->percentile_mm);
+    fw_json_key(&j, "effects_ledger");
+    fw_effects_json_rows(&j, l);
+    fw_json_key(&j, "cost");
+    fw_json_begin_object(&j);
+    number(&j, "force_evaluations", l->evaluations);
+    number(&j, "evaluations_bare", l->evaluations_bare);
+    number(&j, "cpu_s", l->cpu_s);
+    number(&j, "cpu_s_first", l->cpu_s_first);
+    number(&j, "cpu_bare", l->cpu_bare);
+    number(&j, "cpu_noise", l->cpu_noise);
+    number(&j, "cpu_s_study", l->cpu_s_study);
+    fw_json_end(&j);
+    fw_json_end(&j);
+}
+
+const fw_effects_row *fw_effects_find_row(const fw_effects_ledger *l, const char *name)
+{
+    for (size_t i = 0; i < l->n_rows; i++)
+        if (l->rows[i].is_effect && strcmp(l->rows[i].name, name) == 0) return &l->rows[i];
+    return NULL;
+}
