@@ -25,6 +25,7 @@ fw_status fw_study_check_place(const char *path, const char *filetype, fw_msg *m
     if (stat(path, &s) != 0) return FW_OK;
     fw_status status = fw_tables_open(&old, path, filetype, &why);
     fw_tables_close(old);
+    FW_CHECK(status != FW_E_NOMEM, m, status, "%s", why.text); /* that says nothing of the file */
     FW_CHECK(status == FW_OK, m, FW_E_MISMATCH, "will not replace a file that is no %s study of ours: %s",
              strrchr(filetype, ' ') ? strrchr(filetype, ' ') + 1 : filetype, why.text);
     return FW_OK;

@@ -1,8 +1,9 @@
-/* Memory runs out in a whole campaign as `floewear run` has it, alone: the choice of numerics, files opened, windows
+/* Memory runs out in a whole campaign as `floewear run` has it, alone: the choices of numerics and effects, files opened, windows
  * simulated into the journal, the answer, NAME.h5. After every failure the same run goes on and gives the same results.
  * MPI is not started. */
 #include "cli/choice.h"
 #include "cli/config.h"
+#include "cli/effects_tables.h"
 #include "cli/report_tables_h5.h"
 #include "cli/run_files.h"
 #include "memory/inject.h"
@@ -15,6 +16,7 @@ static const char text[] = "name: small\n"
                            "exposure: {window: 5 s, warm_up: 1 s}\n"
                            "precision: {max_realisations: 4}\n"
                            "service: {life: 50 year, ice_hours_per_year: 1200 h}\n"
+                           "effects_tolerance: 2 %\n"
                            "seed: 3\n";
 static const char file[] = "small.yaml", results[] = "small.h5", journal[] = "small.journal";
 
@@ -52,7 +54,7 @@ static fw_status run_on(session *s, fw_msg *m)
     FW_TRY(fw_campaign_run(&run, &result, m));
     fw_answer_source  source = fw_run_files_answer(&s->files, result.n_prefix);
     fw_record_source  records = fw_run_files_records(&s->files, result.n_prefix);
-    fw_answer_options o = {.measured = &s->choice.measured};
+    fw_answer_options o = {.measured = &s->choice.measured, .effects = &s->choice.effects};
     FW_TRY(fw_answer_make(&s->answer, &s->campaign, &source, &o, m));
     return fw_report_write(results, &s->campaign, &records, &s->answer, m);
 }
@@ -82,8 +84,9 @@ static uint64_t end_choose(void *self, fw_status status)
     session *s = self;
     uint64_t h = 0;
     if (status == FW_OK) {
-        assert_true(s->choice.is_taken);
+        assert_true(s->choice.is_taken && s->choice.dropped == FW_EFFECT_FLOE_CONTACT && s->choice.effects.n_rows == 1);
         h = inject_hash(s->campaign.hash, s->choice.line, strlen(s->choice.line));
+        h = inject_hash(h, s->choice.effects_line, strlen(s->choice.effects_line));
     }
     fw_campaign_free(&s->campaign);
     return h;
@@ -161,6 +164,8 @@ static void make_choice(void)
     assert_ok(fw_config_campaign(&c, file, 0, NULL, -1, &msg));
     fw_measured_default(&a.measured, &c.model);
     assert_ok(fw_accuracy_file_write("small.accuracy.h5", &c, &a, &msg));
+    static fw_effects_ledger l = {.n_windows = 4, .point = 1, .n_rows = 1, .rows = {{.name = "floe_contact", .is_effect = true, .was_on = true, .cpu_saved = 0.5}}};
+    assert_ok(fw_effects_tables_write("small.effects.h5", &c, &l, &msg));
     fw_campaign_free(&c);
 }
 
@@ -177,8 +182,8 @@ static void whole(void **state)
     make_choice();
     s = (session){.is_resumed = false};
     inject_walk(&(inject_case){
-        .name = "campaign with chosen numerics", .begin = begin, .run = run, .end = end, .self = &s, .stride = 31});
-    inject_walk(&(inject_case){.name = "choice of numerics", .run = choose, .end = end_choose, .self = &s});
+        .name = "campaign with chosen numerics and effects", .begin = begin, .run = run, .end = end, .self = &s, .stride = 31});
+    inject_walk(&(inject_case){.name = "choice of numerics and effects", .run = choose, .end = end_choose, .self = &s});
     inject_walk(&(inject_case){
         .name = "files of a campaign", .begin = begin_files, .run = open_files, .end = end_files, .self = &s});
 }

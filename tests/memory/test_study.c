@@ -3,6 +3,7 @@
 #include "memory/inject.h"
 #include "statistics/mixture.h"
 #include "study/accuracy.h"
+#include "study/effects_ledger.h"
 #include "study/made_up.h"
 
 /* ---- answers ---- */
@@ -151,6 +152,44 @@ static void accuracy(void **state)
     for (size_t id = 0; id < N_RECORDS; id++) fw_record_free(&j.records[id]);
 }
 
+/* ---- effects ledger ---- */
+
+typedef struct switching {
+    fw_campaign       campaign;
+    double            bearings[24];
+    fw_effects_ledger ledger;
+} switching;
+
+static fw_status switch_all(void *self, fw_msg *m)
+{
+    static const fw_effects_switch SWITCHES[] = {{"floe_contact", FW_EFFECT_FLOE_CONTACT, NULL},
+                                                 {"friction", FW_EFFECT_FRICTION, NULL},
+                                                 {"rotation", FW_EFFECT_ROTATION, NULL},
+                                                 {"form_drag", FW_EFFECT_FORM_DRAG, NULL}};
+    switching         *w = self;
+    fw_effects_options o = {.scenario = sparse_scenario, .n_switches = 4, .switches = SWITCHES, .n_windows = 3, .way = 60};
+    return fw_effects_ledger_make(&w->ledger, &w->campaign, &o, m);
+}
+
+static uint64_t end_switching(void *self, fw_status status)
+{
+    switching *w = self;
+    uint64_t   h = inject_hash(w->ledger.n_rows, &w->ledger.percentile_mm, sizeof(double));
+    for (size_t i = 0; i < w->ledger.n_rows; i++) h = inject_hash(h, &w->ledger.rows[i].mean, sizeof w->ledger.rows[i].mean);
+    if (status != FW_OK) assert_true(w->ledger.n_rows == 0);
+    return h;
+}
+
+static void effects(void **state)
+{
+    (void)state;
+    static switching w;
+    w.campaign = made_up_campaign(w.bearings);
+    fw_model_defaults(&w.campaign.model);
+    w.campaign.model.window = 60, w.campaign.model.warm_up = 0, w.campaign.seed = 3;
+    inject_walk(&(inject_case){.name = "effects ledger", .run = switch_all, .end = end_switching, .self = &w});
+}
+
 /* ---- statistics ---- */
 
 typedef struct law_case {
@@ -232,6 +271,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(answers),
         cmocka_unit_test(accuracy),
+        cmocka_unit_test(effects),
         cmocka_unit_test(statistics),
         cmocka_unit_test(leases),
     };
