@@ -90,8 +90,6 @@ fw_status fw_model_check(const fw_model *m, fw_msg *msg)
     NEED(m->tide.n_rows ? m->tide.rows && m->tide.n_rows <= FW_MAX_COURSE : is_in(m->tide.period, 60, 1e9) && is_in(m->tide.minor_ratio, -1, 1),
          "tide: %zu rows, period %g s, minor ratio %g: wanted at most %d rows, or 60 to 1e9 s and -1 to 1", m->tide.n_rows, m->tide.period,
          m->tide.minor_ratio, (int)FW_MAX_COURSE);
-    NEED(is_in(m->crushing_limit.pressure, 1e3, 1e9) && is_in(m->crushing_limit.exponent, 0, 0.99),
-         "crushing limit %g Pa, exponent %g: wanted 1e3 to 1e9 and 0 to 0.99", m->crushing_limit.pressure, m->crushing_limit.exponent);
     NEED(is_in(m->crush.law.pressure, 1e3, 1e9) && is_in(m->crush.law.exponent, 0, 0.99),
          "crushing pressure %g Pa, exponent %g: wanted 1e3 to 1e9 and 0 to 0.99", m->crush.law.pressure, m->crush.law.exponent);
     FW_CHECK(FW_OPTIONAL_EFFECTS || !(m->effects & ~(uint32_t)FW_EFFECTS_CORE), msg, FW_E_UNSUPPORTED,

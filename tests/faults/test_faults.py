@@ -60,7 +60,8 @@ FAULTS = {
     "touches are missed": (
         "kernel/path.c", "                if (at <= until) return at;\n", "                if (at <= until && root > 0.3 * h) return at;\n", "window", ["before they touched", "whole radius"]),
     "wear falls beside the ring": (
-        "abrasion/wear.c", "    d[QUAD * l + ALL] += wall;\n", "    d[QUAD * l + ALL] += 0.999999 * wall;\n", "hit", ["wear load on the ring"]),
+        "abrasion/wear.c", "w->load[l][q][k] = cell[QUAD * l + q] * per_arc;\n", "w->load[l][q][k] = cell[QUAD * l + q] * per_arc * 0.999999;\n", "hit",
+        ["wear load on the ring"]),
 }
 
 
