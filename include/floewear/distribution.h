@@ -15,7 +15,7 @@ typedef enum fw_distribution_kind {
     FW_DIST_UNIFORM,    /* a = low, b = high */
     FW_DIST_NORMAL,     /* a = mean, b = standard deviation */
     FW_DIST_LOGNORMAL,  /* a = mean of ln x, b = standard deviation of ln x (x in SI) */
-    FW_DIST_WEIBULL,    /* a = scale, b = shape */
+    FW_DIST_WEIBULL,    /* a = scale, b = shape, c = location: no value below it */
     FW_DIST_GAMMA,      /* a = shape, b = scale */
     FW_DIST_BETA,       /* a, b = shapes, on [c, d] */
     FW_DIST_TRIANGULAR, /* a = low, b = mode, c = high */

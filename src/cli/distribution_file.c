@@ -40,7 +40,13 @@ static const law LAWS[] = {
      4,
      {{"mean", VALUE}, {"cv", PLAIN}, {"median", VALUE}, {"sigma", PLAIN}},
      "{mean, cv} of the value itself, or {median, sigma} with sigma of its logarithm"},
-    {"weibull", FW_DIST_WEIBULL, false, 2, 2, {{"scale", SPREAD}, {"shape", PLAIN}}, "{scale, shape}"},
+    {"weibull",
+     FW_DIST_WEIBULL,
+     false,
+     2,
+     3,
+     {{"scale", SPREAD}, {"shape", PLAIN}, {"location", VALUE}},
+     "{scale, shape}, with {location} three parameters: no value below it, 0 when left out"},
     {"gamma", FW_DIST_GAMMA, false, 2, 2, {{"shape", PLAIN}, {"scale", SPREAD}}, "{shape, scale}"},
     {"beta",
      FW_DIST_BETA,
@@ -175,6 +181,11 @@ static fw_status set_parameters(const asked *a, const law *l, const fw_node *at,
         out->b = x[1];
         out->c = isnan(x[BETA_MIN]) ? 0 : x[BETA_MIN];
         out->d = isnan(x[BETA_MAX]) ? 1 : x[BETA_MAX];
+        return FW_OK;
+    case FW_DIST_WEIBULL:
+        out->a = x[0];
+        out->b = x[1];
+        out->c = isnan(x[2]) ? 0 : x[2];
         return FW_OK;
     default:
         out->a = x[0];

@@ -29,7 +29,7 @@ static double base_P(const fw_distribution *d, double x)
     case FW_DIST_UNIFORM: return gsl_cdf_flat_P(x, d->a, d->b);
     case FW_DIST_NORMAL: return gsl_cdf_gaussian_P(x - d->a, d->b);
     case FW_DIST_LOGNORMAL: return x <= 0 ? 0 : gsl_cdf_ugaussian_P((log(x) - d->a) / d->b);
-    case FW_DIST_WEIBULL: return x <= 0 ? 0 : gsl_cdf_weibull_P(x, d->a, d->b);
+    case FW_DIST_WEIBULL: return x <= d->c ? 0 : gsl_cdf_weibull_P(x - d->c, d->a, d->b);
     case FW_DIST_GAMMA: return x <= 0 ? 0 : gsl_cdf_gamma_P(x, d->a, d->b);
     case FW_DIST_BETA: return x <= d->c ? 0 : x >= d->d ? 1 : gsl_cdf_beta_P((x - d->c) / (d->d - d->c), d->a, d->b);
     case FW_DIST_TRIANGULAR: return triangular_cdf(d, x);
@@ -45,7 +45,7 @@ static double base_Q(const fw_distribution *d, double x)
     case FW_DIST_UNIFORM: return gsl_cdf_flat_Q(x, d->a, d->b);
     case FW_DIST_NORMAL: return gsl_cdf_gaussian_Q(x - d->a, d->b);
     case FW_DIST_LOGNORMAL: return x <= 0 ? 1 : gsl_cdf_ugaussian_Q((log(x) - d->a) / d->b);
-    case FW_DIST_WEIBULL: return x <= 0 ? 1 : gsl_cdf_weibull_Q(x, d->a, d->b);
+    case FW_DIST_WEIBULL: return x <= d->c ? 1 : gsl_cdf_weibull_Q(x - d->c, d->a, d->b);
     case FW_DIST_GAMMA: return x <= 0 ? 1 : gsl_cdf_gamma_Q(x, d->a, d->b);
     case FW_DIST_BETA: return x <= d->c ? 1 : x >= d->d ? 0 : gsl_cdf_beta_Q((x - d->c) / (d->d - d->c), d->a, d->b);
     case FW_DIST_TRIANGULAR:
@@ -88,7 +88,7 @@ static double base_inverse(const fw_distribution *d, double p, double q)
     case FW_DIST_UNIFORM: return p <= q ? d->a + p * (d->b - d->a) : d->b - q * (d->b - d->a);
     case FW_DIST_NORMAL: return d->a + d->b * (p <= q ? gsl_cdf_ugaussian_Pinv(p) : gsl_cdf_ugaussian_Qinv(q));
     case FW_DIST_LOGNORMAL: return exp(d->a + d->b * (p <= q ? gsl_cdf_ugaussian_Pinv(p) : gsl_cdf_ugaussian_Qinv(q)));
-    case FW_DIST_WEIBULL: return d->a * pow(p <= q ? -log1p(-p) : -log(q), 1 / d->b);
+    case FW_DIST_WEIBULL: return d->c + d->a * pow(p <= q ? -log1p(-p) : -log(q), 1 / d->b);
     case FW_DIST_GAMMA: return bisect(d, 0, INFINITY, p, q);
     case FW_DIST_BETA: return bisect(d, d->c, d->d, p, q);
     case FW_DIST_TRIANGULAR: {
@@ -107,8 +107,8 @@ static double support_min(const fw_distribution *d)
     case FW_DIST_UNIFORM:
     case FW_DIST_TRIANGULAR: return d->a;
     case FW_DIST_LOGNORMAL:
-    case FW_DIST_WEIBULL:
     case FW_DIST_GAMMA: return 0;
+    case FW_DIST_WEIBULL:
     case FW_DIST_BETA: return d->c;
     default: return -INFINITY;
     }
@@ -384,12 +384,13 @@ static double partial_moment(const fw_distribution *d, double from, double to)
     case FW_DIST_LOGNORMAL: /* x f(x; mu, s) = exp(mu + s^2/2) f(x; mu + s^2, s) */
         shifted.a = d->a + d->b * d->b;
         return exp(d->a + d->b * d->b / 2) * base_mass(&shifted, from, to);
-    case FW_DIST_WEIBULL: { /* x = scale y^(1/shape), y exponential: an incomplete gamma function of 1 + 1/shape */
+    case FW_DIST_WEIBULL: { /* x = location + scale y^(1/shape), y exponential: an incomplete gamma function of 1 + 1/shape */
         shifted.kind = FW_DIST_GAMMA;
         shifted.a = 1 + 1 / d->b;
         shifted.b = 1;
-        return d->a * gsl_sf_gamma(shifted.a) *
-               base_mass(&shifted, pow(fmax(from, 0) / d->a, d->b), pow(fmax(to, 0) / d->a, d->b));
+        double y_from = pow(fmax(from - d->c, 0) / d->a, d->b), y_to = pow(fmax(to - d->c, 0) / d->a, d->b);
+        double above = d->a * gsl_sf_gamma(shifted.a) * base_mass(&shifted, y_from, y_to);
+        return d->c != 0 ? d->c * base_mass(d, from, to) + above : above;
     }
     case FW_DIST_GAMMA: /* x f(x; k, s) = k s f(x; k + 1, s) */
         shifted.a = d->a + 1;

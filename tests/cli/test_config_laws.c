@@ -38,6 +38,7 @@ static void speeds(void **state)
         {"{normal: {mean: 1 m/s, sd: 20 cm/s, min: 0.1 m/s, max: 2 m/s}}", FW_DIST_NORMAL, 1, 0.2, 0, 0.1, 2},
         {"{weibull: {scale: 0.4 m/s, shape: 1.6}}", FW_DIST_WEIBULL, 0.4, 1.6, 0, -INFINITY, INFINITY},
         {"{weibull: {scale: 0.4 m/s, shape: 1.6}, min: 0.1 m/s}", FW_DIST_WEIBULL, 0.4, 1.6, 0, 0.1, INFINITY},
+        {"{weibull: {location: 20 cm/s, scale: 0.4 m/s, shape: 1.6}}", FW_DIST_WEIBULL, 0.4, 1.6, 0.2, -INFINITY, INFINITY},
         {"{gamma: {shape: 2, scale: 0.2 m/s}}", FW_DIST_GAMMA, 2, 0.2, 0, -INFINITY, INFINITY},
         {"{triangular: [0.1 m/s, 0.3 m/s, 1 m/s]}", FW_DIST_TRIANGULAR, 0.1, 0.3, 1, -INFINITY, INFINITY},
         {"{lognormal: {median: 0.5 m/s, sigma: 0.3}}", FW_DIST_LOGNORMAL, -0.69314718055994530942, 0.3, 0, -INFINITY,

@@ -33,7 +33,7 @@ static void assert_near(double got, double want, double relative)
         fail_msg("got %.17g, want %.17g (relative %.3g)", got, want, (got - want) / want);
 }
 
-enum { N_LAWS = 8 };
+enum { N_LAWS = 9 };
 
 static void all_laws(fw_distribution *laws)
 {
@@ -45,6 +45,7 @@ static void all_laws(fw_distribution *laws)
     laws[5] = law(FW_DIST_BETA, 2, 3.5, 0.1, 0.65);
     laws[6] = law(FW_DIST_TRIANGULAR, 0.1, 0.3, 0.6, 0);
     laws[7] = law(FW_DIST_TRIANGULAR, 0, 0, 2, 0); /* mode at an end */
+    laws[8] = law(FW_DIST_WEIBULL, 0.4, 1.6, -0.25, 0);     /* three parameters */
 }
 
 /* densities as the textbooks write them, independent of the code under test */
@@ -55,7 +56,7 @@ static double density(double x, void *p)
     case FW_DIST_UNIFORM: return x > d->a && x < d->b ? 1 / (d->b - d->a) : 0;
     case FW_DIST_NORMAL: return gsl_ran_gaussian_pdf(x - d->a, d->b);
     case FW_DIST_LOGNORMAL: return gsl_ran_lognormal_pdf(x, d->a, d->b);
-    case FW_DIST_WEIBULL: return gsl_ran_weibull_pdf(x, d->a, d->b);
+    case FW_DIST_WEIBULL: return gsl_ran_weibull_pdf(x - d->c, d->a, d->b);
     case FW_DIST_GAMMA: return gsl_ran_gamma_pdf(x, d->a, d->b);
     case FW_DIST_BETA: return gsl_ran_beta_pdf((x - d->c) / (d->d - d->c), d->a, d->b) / (d->d - d->c);
     case FW_DIST_TRIANGULAR:
@@ -106,6 +107,9 @@ static void quantiles_have_their_closed_forms(void **state)
     assert_near(fw_distribution_quantile(&laws[1], 0.95), 1.5 + 0.5 * 1.6448536269514722, 1e-14);
     assert_near(fw_distribution_quantile(&laws[2], 0.95), exp(-0.3 + 1.0857 * 1.6448536269514722), 1e-13);
     assert_near(fw_distribution_quantile(&laws[3], 0.9), 0.4 * pow(log(10.0), 1 / 1.6), 1e-14);
+    assert_near(fw_distribution_quantile(&laws[8], 0.9), -0.25 + 0.4 * pow(log(10.0), 1 / 1.6), 1e-14);
+    assert_near(fw_distribution_mean(&laws[8]), -0.25 + 0.4 * tgamma(1 + 1 / 1.6), 1e-13);
+    assert_true(fw_distribution_min(&laws[8]) == -0.25 && fw_distribution_cdf(&laws[8], -0.26) == 0);
     /* gamma of shape 1 is the exponential law; beta(2, 1) has CDF x^2 */
     fw_distribution e = law(FW_DIST_GAMMA, 1, 3, 0, 0), b = law(FW_DIST_BETA, 2, 1, 0, 1);
     assert_near(fw_distribution_quantile(&e, 0.99), 3 * log(100.0), 1e-13);
