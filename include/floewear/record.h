@@ -43,6 +43,7 @@ enum { FW_RECORD_GENERATION = 10 };
     X(energy_truncation, "1", "energy balance of the trajectory relative to throughput")                               \
     X(momentum_relative, "1", "momentum bookkeeping: impulses against change of momentum")                             \
     X(wear_conservation, "1", "wear load on the ring against the patch integral, relative")                            \
+    X(wear_thickness, "m", "mean thickness of the floes that wore, weighted by the first law's load on the wall; 0: none did") \
     X(force_evaluations, "1", "contact force evaluations, one per contact and stage")                                  \
     X(steps, "1", "sub-steps of all islands")                                                                          \
     X(refined_steps, "1", "sub-steps repeated with half their length because a watch-dog saw a law broken")             \

@@ -34,6 +34,7 @@ typedef struct fw_wear {
     double      *path;                 /* (n_arcs) [m]; path and load are filled by fw_wear_finish */
     double      *load[FW_MAX_LAWS][3]; /* (n_arcs) each: all, within 2/w of a hit, above high_pressure [Pa^m m] */
     fw_wear_sums sums[FW_MAX_LAWS];
+    double       x_thickness; /* of the first law: int sigma^m |vt| b h dt; over x_wall: mean thickness of the floes that wore */
     /* Inside: a quad per arc and law, so that a patch is laid down in one pass: load all, near a hit, high; path (law 0), each
      * times the length of wall it lies on. */
     double      *cells; /* (n_arcs, n_laws, 4) */

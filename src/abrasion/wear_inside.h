@@ -35,8 +35,9 @@ static double asin_of(double x)
 
 /* The patch's centre moves from `from` to `to`, its chord grows by `growth` on the way. Its arc is a little longer than its
  * chord; amounts per chord keep the integral. */
-static void spread(fw_wear *w, const deposit d, double from, double to, double chord, double growth)
+static void spread(fw_wear *w, const deposit d, double thickness, double from, double to, double chord, double growth)
 {
+    w->x_thickness += d[ALL] * thickness;
     double wide = 2 * w->structure_radius, half = asin_of(chord / wide);
     double most = half < chord / wide ? half : chord / wide; /* a chord that is said to shrink by more than itself would turn inside out */
     double more = 0.5 * growth / wide;
@@ -110,13 +111,13 @@ static inline __attribute__((always_inline)) void lay_smooth(fw_wear *w, const f
             count(w, l, path[q], along, along * chord[q], is[q], above[q], d);
         }
         if (is_one) continue;
-        spread(w, d, edge, edge + turn * WEIGHT[q], chord[q], rise * WEIGHT[q]);
+        spread(w, d, iv->thickness, edge, edge + turn * WEIGHT[q], chord[q], rise * WEIGHT[q]);
         edge += turn * WEIGHT[q];
         for (size_t i = 0; i < QUAD * w->n_laws; i++) d[i] = 0;
     }
     if (!is_one) return;
     double mean = chord[0] * WEIGHT[0] + chord[1] * WEIGHT[1] + chord[2] * WEIGHT[2];
-    spread(w, d, iv->angle[0], iv->angle[0] + turn, mean, rise);
+    spread(w, d, iv->thickness, iv->angle[0], iv->angle[0] + turn, mean, rise);
 }
 
 /* Intervals that begin or end with a touch, a release or a turn of slip. */
@@ -151,7 +152,7 @@ static void collect_nodes(fw_wear *w, const fw_wear_interval *iv, fw_rule_nodes 
         bool falls = above > 0 && above < 1; /* through high_pressure: what lies above keeps to its own arcs */
         if (q + 1 < n && !falls && moved + way(at, edge, q + 1, per_turn, per_chord) < EDGE_WAY) continue;
         if (is_any)
-            spread(w, sum, iv->angle[0] + turn * at->from[first], iv->angle[0] + turn * at->to[q],
+            spread(w, sum, iv->thickness, iv->angle[0] + turn * at->from[first], iv->angle[0] + turn * at->to[q],
                    0.5 * (edge[first] + edge[q + 1]), edge[q + 1] - edge[first]);
         for (size_t i = 0; i < n_quads; i++) sum[i] = 0;
         moved = 0, is_any = false, first = q + 1;

@@ -19,6 +19,7 @@ void fw_outcome_fill(fw_record *r, const fw_world *w, const fw_wear *wear, doubl
     r->energy_truncation = fw_ledger_energy_truncation(l, w->energy_start, fw_world_energy(w));
     r->momentum_relative = fw_ledger_momentum_relative(l);
     r->wear_conservation = fw_wear_conservation(wear);
+    r->wear_thickness = wear->sums[0].x_wall > 0 ? wear->x_thickness / wear->sums[0].x_wall : 0;
     r->force_evaluations = l->force_evaluations;
     r->steps = l->steps;
     r->refined_steps = l->refined;

@@ -15,7 +15,7 @@
 
 #define FW_RESULTS_FILETYPE "floewear results"
 enum { FW_RESULTS_VERSION = 5 }; /* 2: awake_floes, reach; 3: watch-dogs, tries; 4: mean_diameter_wanted;
-                                * 5: wind, tide_phase */
+                                * 5: wind, tide_phase, wear_thickness */
 enum { FW_RESULTS_CAUSE = sizeof((fw_record *)0)->cause };
 
 typedef struct fw_results_datasets {
