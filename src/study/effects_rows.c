@@ -91,13 +91,18 @@ static size_t arm_of_set(fw_effects_plan *p, const fw_campaign *c, uint32_t set)
     return k;
 }
 
-/* Sets that the model refuses are rows with its reason. */
-static bool is_possible(const fw_campaign *c, uint32_t set, fw_effects_row *row)
+static bool is_possible(const fw_campaign *c, uint32_t set, fw_msg *why)
 {
     fw_model model = c->model;
-    fw_msg   why = {""};
     model.effects = set;
-    if (fw_model_check(&model, &why) == FW_OK) return true;
+    return fw_model_check(&model, why) == FW_OK;
+}
+
+/* Models that are refused are rows with the reason. */
+static bool may_run(const fw_campaign *c, uint32_t set, fw_effects_row *row)
+{
+    fw_msg why = {""};
+    if (is_possible(c, set, &why)) return true;
     snprintf(row->note, sizeof row->note, "not possible here: %.130s", why.text);
     return false;
 }
@@ -124,7 +129,7 @@ static void add_effect(fw_effects_plan *p, fw_effects_ledger *l, const fw_campai
         return;
     }
     uint32_t set = was_on ? switched_off(own, s->bit) : own | s->bit;
-    if (is_possible(c, set, row)) p->arm[row - l->rows] = arm_of_set(p, c, set);
+    if (may_run(c, set, row)) p->arm[row - l->rows] = arm_of_set(p, c, set);
 }
 
 static void add_choice(fw_effects_plan *p, fw_effects_ledger *l, const fw_campaign *c, const struct choice *choice)
@@ -148,19 +153,24 @@ static void add_choice(fw_effects_plan *p, fw_effects_ledger *l, const fw_campai
             snprintf(row->note, sizeof row->note, "not used here");
         else if (choice->offset == offsetof(fw_model, stiffness) && c->model.stiffness_from_pressure)
             snprintf(row->note, sizeof row->note, "not used here: stiffness comes from the ice's pressure");
-        if (row->note[0] || !is_possible(&own, own.model.effects, row)) return;
+        if (row->note[0] || !may_run(&own, own.model.effects, row)) return;
     }
     size_t k = add_arm(p, &own);
     p->arms[k].is_read = choice->how == TEMPERATURE;
     p->arm[row - l->rows] = k;
 }
 
+/* An effect that the model cannot do without (a crushing limit under an exponent of 2) stays, and is part of the bare rest. */
 static void add_chain(fw_effects_plan *p, const fw_effects_ledger *l, const fw_campaign *c, size_t n, const fw_effects_switch *switches)
 {
-    uint32_t set = c->model.effects, bit;
+    uint32_t set = c->model.effects, stays = 0, bit;
     p->chain[p->n_chain++] = 0;
-    while ((bit = next_off(set)) != 0) {
+    while ((bit = next_off(set & ~stays)) != 0) {
         uint32_t next = switched_off(set, bit);
+        if (!is_possible(c, next, NULL)) {
+            stays |= bit;
+            continue;
+        }
         for (size_t i = 0; i < n && i < l->n_rows; i++)
             if (switches[i].bit == bit) p->what_is_off[p->n_chain - 1] = i;
         p->chain[p->n_chain++] = arm_of_set(p, c, next);
