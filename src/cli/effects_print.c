@@ -5,9 +5,17 @@
 
 /* ---- text ------------------------------------------------------------------------------------------------------- */
 
+/* "+1.2", "-23", "+130" */
+static const char *percent(char *text, size_t size, double x)
+{
+    snprintf(text, size, fabs(x) >= 1 ? "%+.0f" : "%+.2g", 100 * x);
+    return text;
+}
+
 /* Twice and more, or less than half, is easier read as a factor. */
 const char *fw_effects_say_change(char *text, size_t size, const fw_change *c)
 {
+    char x[3][24];
     bool is_factor = c->change >= 1 || c->change <= -0.5, has_interval = isfinite(c->low) && isfinite(c->high);
     if (isnan(c->change))
         snprintf(text, size, "-");
@@ -18,9 +26,9 @@ const char *fw_effects_say_change(char *text, size_t size, const fw_change *c)
     else if (is_factor)
         snprintf(text, size, "x%.3g", 1 + c->change);
     else if (has_interval)
-        snprintf(text, size, "%+.2g [%+.2g, %+.2g] %%", 100 * c->change, 100 * c->low, 100 * c->high);
+        snprintf(text, size, "%s [%s, %s] %%", percent(x[0], sizeof x[0], c->change), percent(x[1], sizeof x[1], c->low), percent(x[2], sizeof x[2], c->high));
     else
-        snprintf(text, size, "%+.2g %%", 100 * c->change);
+        snprintf(text, size, "%s %%", percent(x[0], sizeof x[0], c->change));
     return text;
 }
 

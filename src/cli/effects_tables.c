@@ -20,7 +20,7 @@ typedef struct member {
 static const member ROWS[] = {
     ROW(TEXT, name, "1", "effect, or key of an open choice"),
     ROW(TEXT, change, "1", "what is changed"),
-    ROW(TEXT, why, "1", "why one asks"),
+    ROW(TEXT, why, "1", "what that is, or why one asks"),
     ROW(TEXT, note, "1", "why it was not measured; empty: it was"),
     ROW(FLAG, is_effect, "1", "1: an effect; 0: an open choice"),
     ROW(FLAG, was_on, "1", "1: an effect of the campaign's own set"),

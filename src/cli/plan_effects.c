@@ -40,7 +40,8 @@ static fw_status list_switches(const fw_campaign *c, fw_effects_switch *switches
     FW_CHECK(*n <= FW_EFFECTS_MOST, m, FW_E_INTERNAL, "%zu effects, room for %d", *n, (int)FW_EFFECTS_MOST);
     for (size_t i = 0; i < *n; i++) {
         bool is_on = fw_effects_have(&c->model, e[i]->bit);
-        switches[i] = (fw_effects_switch){e[i]->name, (uint32_t)e[i]->bit, is_on ? NULL : refusal(c, &facts, e[i])};
+        switches[i] = (fw_effects_switch){
+            .name = e[i]->name, .bit = (uint32_t)e[i]->bit, .no_data = is_on ? NULL : refusal(c, &facts, e[i]), .why = is_on ? e[i]->off : e[i]->does};
     }
     return FW_OK;
 }

@@ -27,7 +27,7 @@ typedef struct fw_effects_row {
     char      name[40];   /* an effect's, or a key: "rotation", "water.form_drag" */
     uint32_t  bit;        /* fw_effect_bit; 0: an open choice */
     char      change[48]; /* "on -> off", "10 -> 0.9" */
-    char      why[160];   /* why one asks */
+    char      why[160];   /* what that is, or why one asks */
     char      note[160];  /* why it was not measured; empty: it was */
     bool      is_effect;  /* else an open choice */
     bool      was_on;     /* an effect: in the campaign's own set */
@@ -59,6 +59,7 @@ typedef struct fw_effects_switch {
     const char *name;
     uint32_t    bit;     /* fw_effect_bit */
     const char *no_data; /* why it cannot be switched on here; NULL: it can, or it is on */
+    const char *why;     /* what switching it does to the scene */
 } fw_effects_switch;
 
 typedef struct fw_effects_options {

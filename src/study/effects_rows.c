@@ -30,17 +30,6 @@ static const struct choice {
 };
 enum { N_CHOICES = sizeof CHOICES / sizeof CHOICES[0] };
 
-/* Why one asks what an effect moves is what its own row in the table of effects says; the limit and the law are choices as well. */
-static const char *why_of(uint32_t bit, bool was_on)
-{
-    switch (bit) {
-    case FW_EFFECT_ROTATION: return "a locked floe slides all the way";
-    case FW_EFFECT_CRUSHING_LIMIT: return "pressure has no bound at a touch; ice has";
-    case FW_EFFECT_CRUSH_CONTACT: return "the other contact law: ice that crushes and remembers, against the paper's spring";
-    default: return was_on ? "is it needed" : "is it missed";
-    }
-}
-
 /* ---- sets -------------------------------------------------------------------------------------------------------- */
 
 /* Without the first nothing is left of the second. */
@@ -121,7 +110,7 @@ static void add_effect(fw_effects_plan *p, fw_effects_ledger *l, const fw_campai
 {
     uint32_t        own = c->model.effects;
     bool            was_on = (own & s->bit) != 0;
-    fw_effects_row *row = add_row(l, s->name, why_of(s->bit, was_on));
+    fw_effects_row *row = add_row(l, s->name, s->why);
     row->is_effect = true, row->was_on = was_on, row->bit = s->bit;
     snprintf(row->change, sizeof row->change, was_on ? "on -> off" : "off -> on");
     if (!was_on && s->no_data) {

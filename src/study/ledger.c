@@ -163,7 +163,7 @@ static void say_change(char *to, size_t size, const fw_change *c)
     else if (isnan(c->low) || isnan(c->high))
         write_text(to, size, "%+.2g %%", 100 * c->change);
     else
-        write_text(to, size, "%+.2g [%+.2g, %+.2g] %%", 100 * c->change, 100 * c->low, 100 * c->high);
+        write_text(to, size, "%+.3g [%+.3g, %+.3g] %%", 100 * c->change, 100 * c->low, 100 * c->high);
 }
 
 static void switched_off(fw_ledger_row *row, const fw_effects_ledger *l, const fw_effects_row *e, const fw_window *w)

@@ -162,10 +162,10 @@ typedef struct switching {
 
 static fw_status switch_all(void *self, fw_msg *m)
 {
-    static const fw_effects_switch SWITCHES[] = {{"floe_contact", FW_EFFECT_FLOE_CONTACT, NULL},
-                                                 {"friction", FW_EFFECT_FRICTION, NULL},
-                                                 {"rotation", FW_EFFECT_ROTATION, NULL},
-                                                 {"form_drag", FW_EFFECT_FORM_DRAG, NULL}};
+    static const fw_effects_switch SWITCHES[] = {{"floe_contact", FW_EFFECT_FLOE_CONTACT, NULL, "of course"},
+                                                 {"friction", FW_EFFECT_FRICTION, NULL, "of course"},
+                                                 {"rotation", FW_EFFECT_ROTATION, NULL, "of course"},
+                                                 {"form_drag", FW_EFFECT_FORM_DRAG, NULL, "of course"}};
     switching         *w = self;
     fw_effects_options o = {.scenario = sparse_scenario, .n_switches = 4, .switches = SWITCHES, .n_windows = 3, .way = 60};
     return fw_effects_ledger_make(&w->ledger, &w->campaign, &o, m);

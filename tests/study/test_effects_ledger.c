@@ -4,12 +4,12 @@
 
 static const double M = 1.121; /* exponent of the law */
 
-static const fw_effects_switch SWITCHES[] = {{"floe_contact", FW_EFFECT_FLOE_CONTACT, NULL},
-                                             {"friction", FW_EFFECT_FRICTION, NULL},
-                                             {"rotation", FW_EFFECT_ROTATION, NULL},
-                                             {"form_drag", FW_EFFECT_FORM_DRAG, NULL},
-                                             {"nothing", 1u << 20, NULL}, /* a bit that no part of the program knows */
-                                             {"wind", FW_EFFECT_WIND, "there is no wind.speed"}};
+static const fw_effects_switch SWITCHES[] = {{"floe_contact", FW_EFFECT_FLOE_CONTACT, NULL, "of course"},
+                                             {"friction", FW_EFFECT_FRICTION, NULL, "of course"},
+                                             {"rotation", FW_EFFECT_ROTATION, NULL, "of course"},
+                                             {"form_drag", FW_EFFECT_FORM_DRAG, NULL, "of course"},
+                                             {"nothing", 1u << 20, NULL, "of course"}, /* a bit that no part of the program knows */
+                                             {"wind", FW_EFFECT_WIND, "there is no wind.speed", "it blows"}};
 enum { N_SWITCHES = sizeof SWITCHES / sizeof SWITCHES[0] };
 
 static fw_campaign small_campaign(double *bearings)
@@ -140,7 +140,7 @@ static void what_cannot_be_switched_off(void **state)
     fw_effects_options       o = options(4, 60);
     fw_msg                   m = {""};
     memcpy(switches, SWITCHES, sizeof switches);
-    switches[4] = (fw_effects_switch){"crushing_limit", FW_EFFECT_CRUSHING_LIMIT, NULL};
+    switches[4] = (fw_effects_switch){"crushing_limit", FW_EFFECT_CRUSHING_LIMIT, NULL, "ice bears no more"};
     o.switches = switches;
     c.model.effects |= (uint32_t)FW_EFFECT_CRUSHING_LIMIT;
     c.model.laws[0].exponent = 2.5;
