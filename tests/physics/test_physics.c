@@ -3,6 +3,7 @@
 #include "check.h"
 #include "physics/abrasion.h"
 #include "physics/contact.h"
+#include "physics/crush.h"
 #include "physics/drag.h"
 #include "physics/unbreakable.h"
 
@@ -83,9 +84,77 @@ static void abrasion_laws(void **state)
     for (size_t i = 0; i < n; i++) assert_true(all[i].law.exponent > 0 && all[i].law.exponent < 2);
 }
 
+/* A head-on push against F = P0 (b h)^(1-q), b = 2 sqrt(2 R* d), the work of F summed over x = sqrt(d) by the midpoint rule until it has
+ * taken m v^2 / 2; then the line with its damper from rest, by the midpoint method in time, until N = 0. */
+static void one_push(double q, double *deepest, double *restitution)
+{
+    double m = 2209, v = 2, star = 0.934, h = 0.5, P0 = 1.1e6, d = 0, u = v, dt = 2e-7;
+    fw_pressure_law p = {P0, q};
+    double          g = 2 * sqrt(2 * star) * h;
+    /* energy: m u^2 / 2 falls by int F, F = P0 (g sqrt d)^(1-q); midpoint in sqrt d, to rest */
+    double E = 0.5 * m * v * v, x = 0, dx = 1e-6;
+    while (E > 0) {
+        double xm = x + 0.5 * dx, work = P0 * pow(g * xm, 1 - q) * 2 * xm * dx;
+        if (work > E) dx *= E / work, work = E;
+        E -= work, x += dx;
+        if (dx < 1e-12) break;
+    }
+    *deepest = d = x * x;
+    double F = P0 * pow(g * x, 1 - q), S = fw_crush_unloading(&p, exp(-2)) * F / d, c = 2 * sqrt(S * m), y = F / S;
+    u = 0;
+    for (double N = F; N > 0;) { /* y is what the line is pressed in by, u its rate */
+        double a1 = -(S * y + c * u) / m, um = u + 0.5 * dt * a1, ym = y + 0.5 * dt * u, a2 = -(S * ym + c * um) / m;
+        y += dt * um, u += dt * a2, N = S * y + c * u;
+    }
+    *restitution = -u / v;
+}
+
+static void crushing(void **state)
+{
+    (void)state;
+    fw_pressure_law p = {1.1e6, 0}, area = {1.1e6, 0.3};
+    CHECK_RELATIVE(fw_crush_force(&p, 0.5), 5.5e5, 1e-15);
+    CHECK_RELATIVE(fw_crush_force(&area, 0.5), 1.1e6 * pow(0.5, 0.7), 1e-14);
+    CHECK_RELATIVE(fw_crush_pressure(&area, 0.5) * 0.5, fw_crush_force(&area, 0.5), 1e-14);
+    assert_true(fw_crush_force(&area, 0) == 0);
+    for (double q = 0; q < 0.7; q += 0.3) {
+        double          D, e;
+        fw_pressure_law law = {1.1e6, q};
+        one_push(q, &D, &e);
+        CHECK_RELATIVE(fw_crush_depth(&law, 2209, 2, 0.934, 0.5), D, 1e-6);
+        CHECK_RELATIVE(e, exp(-2), 1e-4);
+    }
+    /* d_max = [m v^2 / ((8/3) sqrt(2R*) p h)]^(2/3), N_max = 2 p h sqrt(2R* d) by hand */
+    double D = fw_crush_depth(&p, 2209, 2, 0.934, 0.5);
+    CHECK_RELATIVE(D, pow(2209 * 4 / (8.0 / 3 * sqrt(2 * 0.934) * 1.1e6 * 0.5), 2.0 / 3), 1e-13);
+    CHECK_RELATIVE(fw_crush_force(&p, fw_crush_chord(0.934, D) * 0.5), 2 * 1.1e6 * 0.5 * sqrt(2 * 0.934 * D), 1e-14);
+}
+
+/* k = 0.50 h p^(4/3) [2Rs/(R+Rs)]^(2/3) (pi rho v^2)^(-1/3), 0.50 standing for e^-2 (8/3)^(4/3); the source paper's four floes at p = 1.07 MPa and 2 m/s give
+ * 1.6, 1.4, 2.8 and 2.2 MN/m, mean 2.0, which is the paper's stiffness. */
+static void stiffness_from_pressure(void **state)
+{
+    (void)state;
+    static const struct {
+        double D, h, k;
+    } FLOE[] = {{2.5, 0.5, 1.6e6}, {5, 0.5, 1.4e6}, {5, 1, 2.8e6}, {10, 1, 2.2e6}};
+    fw_pressure_law p = {1.07e6, 0};
+    double          pi = 3.14159265358979323846, Rs = 3.7, v = 2, mean = 0;
+    for (size_t i = 0; i < 4; i++) {
+        double R = 0.5 * FLOE[i].D, h = FLOE[i].h, m = 900 * pi * R * R * h, k = fw_crush_stiffness(&p, m, v, R * Rs / (R + Rs), h);
+        CHECK_RELATIVE(k, exp(-2) * pow(8.0 / 3, 4.0 / 3) * h * pow(1.07e6, 4.0 / 3) * pow(2 * Rs / (R + Rs), 2.0 / 3) * pow(pi * 900 * v * v, -1.0 / 3), 1e-12);
+        /* as deep as the push: v / (w exp 1) of the critically damped spring */
+        CHECK_RELATIVE(v / (sqrt(k / m) * exp(1)), fw_crush_depth(&p, m, v, R * Rs / (R + Rs), h), 1e-13);
+        CHECK_NEAR(k, FLOE[i].k, 0.06e6); /* two digits of k, three of p */
+        mean += k / 4;
+    }
+    CHECK_NEAR(mean, 2.0e6, 0.05e6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(contact_constants), cmocka_unit_test(critical_closed_form),
+                                       cmocka_unit_test(crushing), cmocka_unit_test(stiffness_from_pressure),
                                        cmocka_unit_test(drag_flow), cmocka_unit_test(unbreakable_floes),
                                        cmocka_unit_test(abrasion_laws)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,34 @@
+/* Crushing of ice: what a nominal area b h carries while it crushes, and closed forms of one head-on push.
+ *
+ *   p = P0 (b h / 1 m2)^-q,  F = p b h = P0 (b h)^(1-q)            loading: b the chord of the overlap, h the thickness
+ *   N = F(D) (1 - kappa (D - d) / D) + c d' >= 0,  d < D           on the flat that the deepest overlap D has left, c critical
+ *
+ * Shallow lens, b = 2 sqrt(2 R* d) with 1/R* = 1/R + 1/Rs (the exact lens is used where forces act; it is within 1 %):
+ *   push       int F dd = F(D) D / e,  e = (3 - q)/2, so m v^2 / 2 = F(D) D / e gives the deepest overlap
+ *   rebound    F(D) D / (2 kappa) is in store, and a critically damped line from rest lets go at exp(-1) of the speed of that: after 1/w, with
+ *              w^2 = kappa F(D) / (D m), so restitution = sqrt(e / (2 kappa)) exp(-1)
+ *   spring     the critically damped one is deepest at v / (w exp 1): equal D takes k = m v^2 / (exp 1 D)^2; for q = 0
+ *              k = e^-2 (8/3)^(4/3) (m v^2)^(-1/3) (2 R*)^(2/3) (p h)^(4/3)
+ * Source: a continuum model (material points, crushable foam) of the source paper's table cases: N within 2 % of p b h on loading,
+ * unloading stiff. p of about 1.1 MPa is what the paper's stiffness means. */
+#ifndef FW_PHYSICS_CRUSH_H
+#define FW_PHYSICS_CRUSH_H
+
+#include "floewear/scenario.h"
+
+/* Force that an area b h [m2] carries while it crushes [N], and its pressure [Pa]. */
+double fw_crush_force(const fw_pressure_law *p, double area);
+double fw_crush_pressure(const fw_pressure_law *p, double area);
+
+/* kappa of the line for a restitution of a head-on push. */
+double fw_crush_unloading(const fw_pressure_law *p, double restitution);
+
+/* Deepest overlap [m] of a head-on push of mass m at speed v against R* = reduced radius; of ice h thick. */
+double fw_crush_depth(const fw_pressure_law *p, double m, double v, double reduced_radius, double h);
+/* Chord of a shallow lens [m]. */
+double fw_crush_chord(double reduced_radius, double depth);
+
+/* k [N/m] of the critically damped spring that is as deep. m_eff: mi mj / (mi + mj) between floes, h the thinner one. */
+double fw_crush_stiffness(const fw_pressure_law *p, double m_eff, double v, double reduced_radius, double h);
+
+#endif
