@@ -213,6 +213,10 @@ void fw_rule_add(const fw_rule *r, const fw_wear_interval *iv, const fw_course *
     if (!(b > a)) return;
     bool      is_touch = is_early(iv, a, b);
     enum kind kind = nb < FADED * na ? FADES : na < FADED * nb ? GROWS : SMOOTH;
+    if (iv->is_crushed) { /* no t^(-1/2) at its touch, but a chord like t^(1/2) where ice crushes: nodes drawn to it */
+        add_piece(r, iv, c, iv->is_push && is_touch ? GROWS : kind, a, b, to);
+        return;
+    }
     /* with next to no damping the force of a touch grows from little: still a touch, unless it begins at nil */
     if (is_touch && kind == GROWS && na > FW_RULE_GROWN * nb) kind = SMOOTH;
     if (is_touch && kind == FADES) {
@@ -252,7 +256,7 @@ static bool is_touch(fw_rule *r, const fw_wear_interval *restrict iv, fw_rule_no
     static const double END[] = {0, 0.17392742256872693, 0.5, 0.82607257743127307, 1};
     size_t              last = iv->n_stages - 1;
     double              na = iv->normal[0], nb = iv->normal[last], length = iv->length;
-    if (last < 2 || iv->since_touch >= EARLY * length || !(na > 0) || !(nb > 0)) return false;
+    if (last < 2 || iv->is_crushed || iv->since_touch >= EARLY * length || !(na > 0) || !(nb > 0)) return false;
     if (nb < FADED * na || na <= FW_RULE_GROWN * nb || !(iv->slip[0] * iv->slip[last] > 0)) return false;
     const struct fw_rule_stages *stages = know_stages(r, iv);
     double s0 = length * iv->rate[0], s1 = length * iv->rate[1], normal[4] = {0}, slip[4] = {0};

@@ -47,7 +47,7 @@ static void collect_smooth(fw_wear *w, const fw_wear_interval *iv, const fw_rule
 {
     double chord[4], p[4];
     fw_lens_chords(at->depth, iv->radius, w->structure_radius, chord);
-    for (size_t q = 0; q < 4; q++) p[q] = at->normal[q] / (chord[q] * iv->thickness);
+    for (size_t q = 0; q < 4; q++) p[q] = pressure(w, iv, at->normal[q], chord[q]);
     lay_smooth(w, iv, at, chord, p, turn);
 }
 

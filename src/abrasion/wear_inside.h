@@ -5,6 +5,10 @@
 
 #include <math.h>
 
+#ifndef FW_WEAR_IS_LIMITED
+#define FW_WEAR_IS_LIMITED 0
+#endif
+
 #include "abrasion/wear.h"
 #include "geometry/lens.h"
 #include "geometry/ring.h"
@@ -53,7 +57,19 @@ enum { IS_IMPACT = 1, IS_BEYOND = 2 };
 static unsigned traits(const fw_wear *w, const fw_wear_interval *iv, double u, double depth)
 {
     double small = iv->radius < w->structure_radius ? iv->radius : w->structure_radius;
-    return (u * iv->length < iv->impact_left ? IS_IMPACT : 0) | (depth > 0.1 * small ? IS_BEYOND : 0);
+    return (u * iv->length < iv->impact_left ? IS_IMPACT : 0) | (depth > 0.1 * small && !iv->is_crushed ? IS_BEYOND : 0);
+}
+
+/* Pressure under a chord: of a spring's force, or as ice that crushes has it. The latter is capped node by node where there is a limit as well: below the
+ * pressure that crushes it contradicts the contact, above it there is nothing to cap. */
+static inline double pressure(const fw_wear *w, const fw_wear_interval *iv, double normal, double chord)
+{
+    double area = chord * iv->thickness;
+    if (!iv->is_crushed) return normal / area;
+    double p = !iv->is_push ? normal : iv->push_exponent == 0 ? iv->push_pressure : iv->push_pressure * pow(area, -iv->push_exponent);
+    if (!FW_WEAR_IS_LIMITED) return p;
+    double most = area > 0 ? fw_limit_force(&w->quadrature.limit, area) / area : INFINITY;
+    return p < most ? p : most;
 }
 
 /* Share of a node's load above high_pressure. Soon after a touch sigma = p / lift falls through it inside a node's part of the
@@ -139,7 +155,7 @@ static void collect_nodes(fw_wear *w, const fw_wear_interval *iv, fw_rule_nodes 
     for (size_t q = 0, first = 0; q < n; q++) {
         double slip = fabs(at->slip[q]);
         if (slip > 0 && chord[q] > 0 && at->normal[q] > 0) {
-            double   breadth = chord[q] / at->lift[q], p = at->normal[q] / (breadth * iv->thickness);
+            double   breadth = chord[q] / at->lift[q], p = pressure(w, iv, at->normal[q], breadth);
             unsigned is = traits(w, iv, at->u[q], at->depth[q]);
             above = high(w, at, q, p), is_any = true;
             sum[PATH] += slip * breadth * at->wide[q];

@@ -1,4 +1,5 @@
 /* Wear under a crushing limit (limit.h). */
+#define FW_WEAR_IS_LIMITED 1
 #include "abrasion/wear_inside.h"
 
 /* The usual interval, where it is open or capped from end to end; else false, and nothing done. */
@@ -27,6 +28,11 @@ void fw_wear_collect_limited(fw_wear *w, const fw_wear_interval *iv)
     fw_rule_nodes  at;
     double         turn = iv->angle[1] - iv->angle[0];
     if (fabs(turn) > 0.5 * TWO_PI) turn -= TWO_PI * round(turn / TWO_PI);
+    if (iv->is_crushed) {
+        fw_rule_apply(&w->quadrature, w->rule, iv, &at);
+        if (at.n > 0) collect_nodes(w, iv, &at, turn);
+        return;
+    }
     if (fw_rule_is_smooth(&w->quadrature, w->rule, iv, &smooth) && collect_smooth(w, iv, &smooth, turn)) return;
     fw_rule_apply_limited(&w->quadrature, w->rule, iv, &at);
     if (at.n > 0) collect_nodes(w, iv, &at, turn);
