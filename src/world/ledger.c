@@ -13,19 +13,20 @@ double fw_ledger_momentum_relative(const fw_ledger *l)
 }
 
 /* What a balance of energy is measured against. */
-static double throughput(const fw_ledger *l) { return fmax(l->dashpot + l->friction + l->dropped, l->into_springs); }
+static double gone(const fw_ledger *l) { return l->dashpot + l->friction + l->dropped + (l->crushed + l->rolling); }
+static double throughput(const fw_ledger *l) { return fmax(gone(l), l->into_springs); }
 
 double fw_ledger_energy_given(const fw_ledger *l)
 {
-    double given = fmax(0, -l->friction) + fmax(0, -l->dashpot);
+    double given = fmax(0, -l->friction) + fmax(0, -l->dashpot) + (fmax(0, -l->crushed) + fmax(0, -l->rolling));
     return given > 0 ? given / (given + fabs(throughput(l))) : 0;
 }
 
 double fw_ledger_energy_truncation(const fw_ledger *l, double start, double end)
 {
-    double gone = l->dashpot + l->friction + l->dropped, through = throughput(l);
+    double through = throughput(l);
     if (!(through > 0)) return 0;
-    return fabs(start + l->inflow + l->drag_work - gone - l->outflow - end) / through;
+    return fabs(start + l->inflow + l->drag_work - (gone(l) + l->turned) - l->outflow - end) / through;
 }
 
 double fw_ledger_floes_lost(const fw_ledger *l, double n_now)

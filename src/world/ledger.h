@@ -11,6 +11,8 @@ typedef struct fw_ledger {
     double drag_work;                  /* quadrature of drag power over steps, and the exact change in free flight */
     double inflow, outflow;            /* kinetic and stored energy of floes that entered or left the awake set */
     double dashpot, friction, dropped; /* dissipated; dropped: spring energy lost where tension is refused */
+    double crushed, rolling;           /* by ice that crushes; by the moment of its flats */
+    double turned;                     /* what is stored in flats and goes, or comes, as other places of a rim come under the wall */
     double into_springs;               /* what went into springs: contacts without a dashpot dissipate nothing */
     /* floes: everyone who came is here or has left */
     double floes_start, floes_in, floes_out;
@@ -44,7 +46,7 @@ double fw_ledger_momentum_relative(const fw_ledger *l);
  * through springs.
  * start, end: kinetic plus stored energy of the awake floes [J]. */
 double fw_ledger_energy_truncation(const fw_ledger *l, double start, double end);
-/* What friction and dashpots gave instead of took, relative to the same; sums over all contacts. */
+/* What friction, dashpots and crushing gave instead of took, relative to the same; sums over all contacts. */
 double fw_ledger_energy_given(const fw_ledger *l);
 /* Floes that nobody can account for; n_now: awake ones. */
 double fw_ledger_floes_lost(const fw_ledger *l, double n_now);

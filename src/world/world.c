@@ -26,6 +26,7 @@ void fw_world_destroy(fw_world *w)
     if (!w) return;
     for (size_t i = 0; i < w->block_capacity; i++) block_free(&w->blocks[i]);
     free(w->blocks);
+    for (size_t i = 0; i < w->n_bodies; i++) free(w->bodies[i].rim);
     free(w->bodies);
     free(w->contacts);
     free(w);
@@ -45,6 +46,7 @@ fw_status fw_world_add_body(fw_world *w, const fw_body *proto, fw_msg *m)
     b->t = w->t;
     b->t_wall = b->t_hit = -INFINITY;
     b->is_touched = false;
+    b->angle = 0, b->rim = NULL;
     b->x_listed = b->x - w->drift_x, b->y_listed = b->y - w->drift_y;
     w->max_radius = fmax(w->max_radius, b->radius);
     w->ledger.inflow += kinetic(b);
@@ -105,7 +107,7 @@ void fw_world_drop_block(fw_world *w, uint64_t first_name)
 static double stored(const fw_world *w, const fw_contact *c)
 {
     double d = fw_world_overlap(w, c->i, c->j);
-    return d > 0 ? 0.5 * c->stiffness * d * d : 0;
+    return (d > 0 ? 0.5 * c->stiffness * d * d : 0) + c->energy;
 }
 
 void fw_world_forget(fw_world *w, const bool *is_gone)
@@ -127,6 +129,7 @@ void fw_world_forget(fw_world *w, const bool *is_gone)
         if (is_gone[i]) {
             w->ledger.outflow += kinetic(&w->bodies[i]);
             w->ledger.floes_out++;
+            free(w->bodies[i].rim);
             continue;
         }
         if (next != i) {

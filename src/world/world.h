@@ -28,11 +28,14 @@ typedef struct fw_body {
     double   x_listed, y_listed;    /* where it was when neighbours were last listed, in the ice frame */
     uint64_t name;                  /* for messages and for the order of sums */
     bool     is_touched;            /* ever */
+    double   angle;                 /* turned so far, anticlockwise [rad]; kept where a rim is remembered */
+    struct fw_rim *rim;             /* crushed places of its rim (kernel/crush.h); NULL: none. Owned, one allocation */
 } fw_body;
 
 typedef struct fw_contact {
     int32_t i, j;      /* i < j, or j = FW_WALL */
     double  stiffness; /* [N/m] */
+    double  energy;    /* stored otherwise [J]: a crushing contact's */
 } fw_contact;
 
 /* Rows of ice that nothing has touched, in the ice frame. */
