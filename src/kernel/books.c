@@ -5,6 +5,7 @@
  * when it is committed. */
 #include "geometry/ring.h"
 #include "kernel/cluster.h"
+#include "kernel/crush.h"
 #include "kernel/forces.h"
 
 bool fw_books_overlap(fw_ledger *l, double small, double depth)
@@ -94,7 +95,12 @@ void fw_books_weigh(fw_cluster *c, const fw_setup *set, double h)
     }
     if (fw_has_spin_drag(set)) fw_forces_weigh(c, set, h);
     c->is_weighed = true;
-    for (size_t k = 0; k < c->n_pairs; k++) weigh_pair(c, me, &c->pairs[k], h, to);
+    for (size_t k = 0; k < c->n_pairs; k++) {
+        if (fw_rim_of(&c->pairs[k]))
+            fw_crush_weigh(c, me, &c->pairs[k], h, to);
+        else
+            weigh_pair(c, me, &c->pairs[k], h, to);
+    }
     for (size_t i = 0; i < c->n_members; i++) {
         const fw_member *m = &c->members[i];
         double           mass = m->mass, err = 0;
@@ -123,6 +129,7 @@ void fw_books_keep(fw_cluster *c, const fw_books *books)
     c->is_weighed = false;
     l->kinetic_change += s->kinetic_change, l->impulse_work += s->impulse_work, l->impulse_size += s->impulse_size;
     l->drag_work += s->drag_work, l->dashpot += s->dashpot, l->friction += s->friction, l->dropped += s->dropped;
+    l->crushed += s->crushed, l->rolling += s->rolling, l->turned += s->turned;
     l->into_springs += s->into_springs;
     l->momentum_error += s->momentum_error, l->momentum_size += s->momentum_size;
     l->normal_impulse += s->normal_impulse, l->contact_time += s->contact_time;
@@ -131,10 +138,10 @@ void fw_books_keep(fw_cluster *c, const fw_books *books)
         const fw_pair *p = &c->pairs[k];
         double         other = p->b == FW_WALL ? books->setup->structure_radius : c->members[p->b].radius;
         double         deepest = fw_books_deepest(p->depth[0], p->rate[0], p->depth[last], p->rate[last], h);
-        is_beyond |= fw_books_overlap(l, fw_smaller(c->members[p->a].radius, other), deepest);
+        is_beyond |= fw_books_overlap(l, fw_smaller(c->members[p->a].radius, other), deepest) && !fw_rim_of(p);
     }
     if (is_beyond) l->overlap_time += h;
-    c->dissipated += s->dashpot + s->friction + s->dropped;
+    c->dissipated += s->dashpot + s->friction + s->dropped + (s->crushed + s->rolling);
 }
 
 /* The floe lets go within the step. Stages beyond the release are no force that ever was, and a polynomial through them bulges (up to
@@ -164,7 +171,7 @@ void fw_books_wear(const fw_cluster *c, const fw_books *books)
         const fw_member *a = &c->members[p->a];
         const fw_body   *body = &books->world->bodies[a->index];
         size_t           last = me->n_stages - 1;
-        if (!(p->normal[0] > 0) && !(p->normal[last] > 0)) continue;
+        if (!fw_rim_of(p) && !(p->normal[0] > 0) && !(p->normal[last] > 0)) continue;
         fw_wear_interval iv = {.length = c->t1 - c->t0, .since_touch = p->since_touch};
         iv.impact_left = body->t_hit + 2 / p->law.omega - c->t0;
         iv.depth[0] = p->since_touch > 0 ? p->depth[0] : 0; /* landed on the touch to rounding */
@@ -178,7 +185,10 @@ void fw_books_wear(const fw_cluster *c, const fw_books *books)
         iv.n_stages = me->n_stages;
         for (size_t s = 0; s < me->n_stages; s++)
             iv.at[s] = me->c[s], iv.normal[s] = fw_pair_signed_normal(p, s), iv.slip[s] = p->slip[s];
-        if (iv.normal[0] > 0 && iv.normal[last] <= 0) end_where_it_lets_go(c, p, me, &iv);
+        if (fw_rim_of(p))
+            iv.is_crushed = true, fw_crush_interval(p, me->n_stages, &iv);
+        else if (iv.normal[0] > 0 && iv.normal[last] <= 0)
+            end_where_it_lets_go(c, p, me, &iv);
         iv.radius = a->radius, iv.thickness = body->thickness;
         fw_wear_collect(books->wear, &iv);
     }

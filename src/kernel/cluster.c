@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "kernel/crush.h"
 #include "kernel/watch.h"
 
 static const double TURN_AT_END = 0.98; /* share of a step past which a turn of force counts as its end */
@@ -45,7 +46,7 @@ fw_status fw_cluster_join(fw_cluster *c, const fw_books *books, int32_t body, in
                      .own_inv_mass = b->inv_mass,
                      .mass = 1 / b->inv_mass,
                      .inertia = b->inv_inertia > 0 ? 1 / b->inv_inertia : 0,
-                     .y0 = {b->x, b->y, 0, 0, b->vx, b->vy, b->spin, 0}};
+                     .y0 = {b->x, b->y, b->angle, 0, b->vx, b->vy, b->spin, 0}};
     *member = (int32_t)c->n_members++;
     return FW_OK;
 }
@@ -87,6 +88,8 @@ fw_status fw_cluster_close(fw_cluster *c, const fw_books *books, int32_t a, int3
     fw_pair   *p = &c->pairs[c->n_pairs++];
     *p = (fw_pair){.a = a, .b = other, .t_touch = c->t0, .candidate = candidate};
     p->law = fw_contact_law_apply(eb ? &set->floe_contact : &set->contact, 1 / (ea->own_inv_mass + (eb ? eb->own_inv_mass : 0)));
+    if (fw_is_crush(set) || fw_is_from_pressure(set))
+        FW_TRY(fw_crush_close(p, set, &books->world->bodies[ea->index], eb ? &books->world->bodies[eb->index] : NULL, m));
     p->mu = p->law.mu;
     c->omega = fw_larger(c->omega, p->law.omega);
     mark_touched(books, ea);
@@ -95,6 +98,7 @@ fw_status fw_cluster_close(fw_cluster *c, const fw_books *books, int32_t a, int3
     /* Rims that overlap when they are found to touch (at the start of a scene, or late) bring the energy of their spring along. */
     double depth = fw_larger(0, fw_world_overlap(books->world, ea->index, eb ? eb->index : FW_WALL));
     books->world->ledger.inflow += 0.5 * p->law.k * depth * depth;
+    if (fw_rim_of(p)) books->world->ledger.inflow += fw_crush_find(fw_rim_of(p), ea->y0, depth);
     /* A gentle touch is a small jump: the local error of a step h grows with the jump times h^2, so its first step may be
      * longer. On the structure the pressure's start is wear, whatever the speed. */
     double share = eb ? BETWEEN_FLOES * cbrt(set->velocity_scale / fw_larger(rate, 1e-3 * set->velocity_scale)) : 1;
@@ -176,6 +180,7 @@ static double attempt(fw_cluster *c, const fw_books *books, double h)
         fw_member *m = &c->members[i];
         double     e[4] = {0, 0, 0, 0};
         m->y1[FW_X] = m->r[FW_X] + hg * m->k[last][FW_X], m->y1[FW_Y] = m->r[FW_Y] + hg * m->k[last][FW_Y];
+        if (fw_is_crush(set)) m->y1[FW_TURN] = m->r[FW_TURN] + hg * m->k[last][FW_TURN];
         for (int q = 0; q < 4; q++) m->y1[FW_VX + q] = m->k[last][q];
         for (size_t s = 0; s <= last; s++)
             for (int q = 0; q < 4; q++) e[q] += me->e[s] * m->k[s][FW_VX + q];
@@ -188,7 +193,7 @@ static double attempt(fw_cluster *c, const fw_books *books, double h)
     for (size_t k = 0; k < c->n_pairs; k++) {
         fw_pair *p = &c->pairs[k];
         if (p->b != FW_WALL) continue;
-        worst = fw_larger(worst, wear_error(c, p, set, h) / set->wear_tolerance);
+        worst = fw_larger(worst, fw_rim_of(p) ? fw_crush_error(c, p, set, h, NO_SLIP) : wear_error(c, p, set, h) / set->wear_tolerance);
         if (has_hole(p, last)) worst = fw_larger(worst, 6); /* halves the step */
     }
     if (!is_solved) worst = fw_larger(worst, 2); /* shorter steps are solved sooner */
@@ -235,6 +240,11 @@ static double turn_of_force(const fw_cluster *c, const fw_setup *set, bool *is_b
     for (size_t k = 0; k < c->n_pairs; k++) {
         const fw_pair *p = &c->pairs[k];
         if (p->b != FW_WALL) continue;
+        if (fw_rim_of(p)) {
+            double kink = fw_crush_turn(c, p, set, c->t1 - c->t0);
+            if (kink < first && kink * p->law.omega > SHORT) first = kink, *is_back = false;
+            continue;
+        }
         double from = fw_pair_signed_normal(p, 0), to = fw_pair_signed_normal(p, last), at = first;
         if (from <= 0)
             at = comes_back(c, p, set->method);
@@ -252,7 +262,7 @@ static double careful(const fw_cluster *c, double h)
 {
     for (size_t k = 0; k < c->n_pairs; k++) {
         const fw_pair *p = &c->pairs[k];
-        if (p->b == FW_WALL && p->depth[0] > 0 && !(p->normal[0] > 0)) h = fw_smaller(h, 1 / p->law.omega);
+        if (p->b == FW_WALL && !fw_rim_of(p) && p->depth[0] > 0 && !(p->normal[0] > 0)) h = fw_smaller(h, 1 / p->law.omega);
     }
     return h;
 }

@@ -14,7 +14,7 @@
 #include "kernel/lone.h"
 
 /* Where a floe's position and velocity stand in an array of eight: a vector unit's two words. */
-enum { FW_X = 0, FW_Y = 1, FW_VX = 4, FW_VY = 5, FW_SPIN = 6 };
+enum { FW_X = 0, FW_Y = 1, FW_TURN = 2, FW_VX = 4, FW_VY = 5, FW_SPIN = 6 };
 
 /* A floe of the cluster. */
 typedef struct fw_member {
@@ -62,12 +62,17 @@ typedef struct fw_pair {
     double  load, load_tried; /* of this touch so far, and of the tried step: see wear_error in cluster.c */
     int32_t candidate;        /* its entry in the lists of who may touch whom */
     bool    is_lawful; /* in the weighed step, at all stages: no tension, friction within its cap */
+    struct fw_rim *rim; /* ice that crushes on the structure (crush.h): then k and c of its law are 0; NULL: a spring */
     int8_t  jumped; /* slip went from cap to cap of friction in the step before, up or down: watch.c */
 } fw_pair;
+
+/* What the crushing contact of a pair remembers; NULL: a spring's. */
+static inline struct fw_rim *fw_rim_of(const fw_pair *p) { return FW_OPTIONAL_EFFECTS ? p->rim : NULL; }
 
 /* What a step leaves behind, before it is entered in the ledger. Energies [J], momenta [N s]. */
 typedef struct fw_step_books {
     double kinetic_change, impulse_work, impulse_size, drag_work, dashpot, friction, dropped;
+    double crushed, rolling, turned; /* of ice that crushes: see fw_ledger */
     double stored, into_springs; /* change of spring energy; of the springs that gained some */
     double momentum_error, momentum_size, normal_impulse, contact_time, peak_force;
 } fw_step_books;

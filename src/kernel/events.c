@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "kernel/crush.h"
 #include "kernel/forces.h"
 #include "kernel/wake.h"
 #include "kernel/watch.h"
@@ -90,6 +91,7 @@ void fw_event_fly(fw_kernel *k, int32_t i, double t)
         l->drag_work += 0.5 * (spin * spin - b->spin * b->spin) / b->inv_inertia;
         b->spin = spin;
     }
+    if (fw_is_crush(&k->traffic.setup)) b->angle += b->spin * (t - b->t);
     b->x = at.x, b->y = at.y, b->vx = at.vx, b->vy = at.vy, b->t = t;
 }
 
@@ -135,16 +137,18 @@ static fw_status land(fw_kernel *k, fw_cluster *a, fw_cluster *b, double t, fw_m
 static double pair_omega(const fw_kernel *k, const fw_candidate *e)
 {
     const fw_world *w = k->traffic.world;
-    double          inv = w->bodies[e->i].inv_mass;
+    const fw_setup *s = &k->traffic.setup;
+    const fw_body  *a = &w->bodies[e->i];
+    double          inv = a->inv_mass, R = s->structure_radius, h = a->thickness;
     if (e->j >= 0) {
-        inv += w->bodies[e->j].inv_mass;
+        inv += w->bodies[e->j].inv_mass, R = w->bodies[e->j].radius, h = fw_smaller(h, w->bodies[e->j].thickness);
     } else if (e->j == FW_ICE) {
         const fw_block *b = &w->blocks[e->block];
-        double          r = b->radius[e->row];
-        inv += 1 / fw_kernel_floe_mass(&k->traffic.setup, r, b->thickness[e->row]);
+        R = b->radius[e->row], h = fw_smaller(h, b->thickness[e->row]);
+        inv += 1 / fw_kernel_floe_mass(s, R, b->thickness[e->row]);
     }
-    const fw_setup *s = &k->traffic.setup;
-    return sqrt((e->j == FW_WALL ? s->contact : s->floe_contact).stiffness * inv);
+    bool is_pressure = fw_is_from_pressure(s) || (fw_is_crush(s) && e->j == FW_WALL);
+    return sqrt((is_pressure ? fw_crush_spring(s, 1 / inv, a->radius, R, h) : (e->j == FW_WALL ? s->contact : s->floe_contact).stiffness) * inv);
 }
 
 /* A gap g left at the touch is a force k g that is not there (or too early): w g in velocity within 1/w. It is compared with the

@@ -37,6 +37,10 @@ typedef struct fw_setup {
     double           skin_drag;     /* Cs [-] on the face; 0 without */
     fw_wind          wind;          /* coefficients; with has_wind */
     double           wake_radius, wake_upstream; /* ice nearer to the structure's centre, or to its line within this way upstream, is awake [m]; 0: when touched */
+    bool             is_crush;         /* floe on structure: crush.h instead of the spring */
+    bool             is_from_pressure; /* k of springs from the pressure that crushes */
+    fw_crush         crush;            /* unloading resolved; for either */
+    double           crush_speed;      /* that k is as deep at [m/s] */
     /* numerics */
     bool             is_lone_exact; /* a lone floe on the structure by closed forms (lone.h) instead of the method */
     const fw_method *method;
@@ -69,6 +73,8 @@ static inline bool fw_has_body_forces(const fw_setup *s) { return FW_OPTIONAL_EF
 static inline bool fw_has_wind(const fw_setup *s) { return FW_OPTIONAL_EFFECTS && s->has_wind; }
 static inline bool fw_has_deflection(const fw_setup *s) { return FW_OPTIONAL_EFFECTS && s->has_deflection; }
 static inline bool fw_has_spin_drag(const fw_setup *s) { return FW_OPTIONAL_EFFECTS && s->has_spin_drag; }
+static inline bool fw_is_crush(const fw_setup *s) { return FW_OPTIONAL_EFFECTS && s->is_crush; }
+static inline bool fw_is_from_pressure(const fw_setup *s) { return FW_OPTIONAL_EFFECTS && s->is_from_pressure; }
 static inline bool fw_has_added_mass(const fw_setup *s) { return FW_OPTIONAL_EFFECTS && s->has_added_mass; }
 
 typedef struct fw_kernel fw_kernel;

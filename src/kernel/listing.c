@@ -2,6 +2,7 @@
 #include "kernel/inside.h"
 
 #include "base/memory.h"
+#include "kernel/crush.h"
 #include "kernel/forces.h"
 #include "kernel/strip.h"
 #include "kernel/wake.h"
@@ -70,7 +71,8 @@ fw_status fw_listing_contacts(fw_kernel *k, fw_msg *m)
             const fw_pair *p = &c->pairs[q];
             w->contacts[w->n_contacts++] = (fw_contact){.i = c->members[p->a].index,
                                                         .j = p->b == FW_WALL ? FW_WALL : c->members[p->b].index,
-                                                        .stiffness = p->law.k};
+                                                        .stiffness = p->law.k,
+                                                        .energy = fw_rim_of(p) ? fw_rim_of(p)->stored : 0};
         }
     }
     return FW_OK;

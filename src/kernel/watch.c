@@ -18,7 +18,8 @@ static const double MISSED = 0.01;
 static bool is_energy_out(const fw_cluster *c, const fw_setup *set)
 {
     const fw_step_books *s = &c->tried;
-    double gone = s->dashpot + s->friction + s->dropped, imbalance = s->drag_work - gone - s->kinetic_change - s->stored, mass = 0;
+    double gone = s->dashpot + s->friction + s->dropped + (s->crushed + s->rolling), mass = 0;
+    double imbalance = s->drag_work - gone - s->kinetic_change - s->stored - s->turned;
     double bound = SHARE * set->energy_tolerance, exchanged = c->dissipated + fabs(gone) + s->into_springs;
     if (!(fabs(imbalance) > bound * exchanged)) return false;
     for (size_t i = 0; i < c->n_members; i++) mass += c->members[i].mass;

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "physics/crush.h"
+
 /* What each accuracy takes. Found on the 22 scenes of tests/reference in which floes meet (singles, several, extreme floes), on 20000
  * random single hits against a tenth of the finest tolerances, and on windows at 10 / 40 / 60 % on the same ice, 2 m/s. Everything is
  * measured again by tests/realisation/test_reference.c, test_order.c, test_evaluations.c, tests/validation (the hits and the windows) and
@@ -72,6 +74,7 @@ void fw_accuracy_setup(fw_setup *s, const fw_model *m, double speed, double velo
     double f = log(m->accuracy / TABLE[r].accuracy) / log(TABLE[r + 1].accuracy / TABLE[r].accuracy);
     f = fmin(1, fmax(0, f));
     bool has_own = (m->effects & FW_EFFECT_ICE_ON_ICE) != 0, has_skin = (m->effects & FW_EFFECT_SKIN_DRAG) != 0;
+    bool is_crush = (m->effects & FW_EFFECT_CRUSH_CONTACT) != 0;
     bool has_friction = (m->effects & FW_EFFECT_FRICTION) != 0, has_drag = (m->effects & FW_EFFECT_FORM_DRAG) != 0;
     *s = (fw_setup){
         .structure_radius = m->structure_radius,
@@ -80,7 +83,7 @@ void fw_accuracy_setup(fw_setup *s, const fw_model *m, double speed, double velo
         .floe_contact = {has_own ? m->floe_stiffness : m->stiffness, m->damping_ratio,
                          !has_friction ? 0 : has_own ? m->floe_friction : m->friction, m->slip_damping_ratio},
         .has_floe_contact = (m->effects & FW_EFFECT_FLOE_CONTACT) != 0,
-        .has_drag = has_drag,
+        .has_drag = has_drag || has_skin,
         .has_rotation = (m->effects & FW_EFFECT_ROTATION) != 0,
         .has_friction = has_friction,
         .has_body_forces = (m->effects & (FW_EFFECT_WIND | FW_EFFECT_DEFLECTED_FLOW | FW_EFFECT_SKIN_DRAG)) != 0,
@@ -94,7 +97,11 @@ void fw_accuracy_setup(fw_setup *s, const fw_model *m, double speed, double velo
         .wind = m->wind,
         .drag_per_area = has_drag ? 0.5 * m->water_density * m->form_drag : 0,
         .method = FW_METHOD_ARK3,
-        .is_lone_exact = !m->numerics.order, /* a study of the method is one of every contact */
+        .is_crush = is_crush,
+        .is_from_pressure = m->stiffness_from_pressure,
+        .crush = m->crush,
+        .crush_speed = speed > 0 ? speed : velocity_scale,
+        .is_lone_exact = !m->numerics.order && !is_crush, /* a study of the method is one of every contact */
         .tolerance = blend(TABLE[r].tolerance, TABLE[r + 1].tolerance, f),
         .wear_tolerance = blend(TABLE[r].wear, TABLE[r + 1].wear, f),
         .velocity_scale = velocity_scale,
@@ -111,6 +118,7 @@ void fw_accuracy_setup(fw_setup *s, const fw_model *m, double speed, double velo
         .max_evaluations = INFINITY,
     };
     s->energy_tolerance = m->accuracy;
+    if (!(s->crush.unloading > 0)) s->crush.unloading = fw_crush_unloading(&s->crush.law, exp(-2)); /* the critically damped spring's restitution */
     const fw_numerics *own = &m->numerics; /* of a study of the choice itself */
     if (own->order) s->method = own->order == 2 ? FW_METHOD_TRBDF2 : own->order == 3 ? FW_METHOD_ARK3 : FW_METHOD_ARK4;
     if (own->tolerance > 0) {

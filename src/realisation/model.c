@@ -90,10 +90,15 @@ fw_status fw_model_check(const fw_model *m, fw_msg *msg)
     NEED(m->tide.n_rows ? m->tide.rows && m->tide.n_rows <= FW_MAX_COURSE : is_in(m->tide.period, 60, 1e9) && is_in(m->tide.minor_ratio, -1, 1),
          "tide: %zu rows, period %g s, minor ratio %g: wanted at most %d rows, or 60 to 1e9 s and -1 to 1", m->tide.n_rows, m->tide.period,
          m->tide.minor_ratio, (int)FW_MAX_COURSE);
-    NEED(is_in(m->crush.law.pressure, 1e3, 1e9) && is_in(m->crush.law.exponent, 0, 0.99),
-         "crushing pressure %g Pa, exponent %g: wanted 1e3 to 1e9 and 0 to 0.99", m->crush.law.pressure, m->crush.law.exponent);
     FW_CHECK(FW_OPTIONAL_EFFECTS || !(m->effects & ~(uint32_t)FW_EFFECTS_CORE), msg, FW_E_UNSUPPORTED,
              "this program was built without the optional effects (FLOEWEAR_OPTIONAL_EFFECTS)");
+    if ((m->effects & FW_EFFECT_CRUSH_CONTACT) || m->stiffness_from_pressure) {
+        const fw_crush *c = &m->crush;
+        NEED(is_in(c->law.pressure, 1e3, 1e9), "crush pressure %g Pa: wanted 1e3 to 1e9", c->law.pressure);
+        NEED(is_in(c->law.exponent, 0, 0.9), "exponent of the crush pressure %g: wanted 0 to 0.9", c->law.exponent);
+        NEED(!(c->unloading > 0) || is_in(c->unloading, 1, 1e6), "unloading stiffness %g: wanted 1 to 1e6, times force over deepest overlap", c->unloading);
+        NEED(m->numerics.scheme == FW_SCHEME_EVENTS, "contacts by crushing pressure are the event-driven kernel's");
+    }
     NEED(m->n_laws >= 1 && m->n_laws <= FW_MAX_LAWS, "%zu abrasion laws: wanted 1 to %d", m->n_laws, (int)FW_MAX_LAWS);
     FW_TRY(check_laws(m, msg));
     NEED(is_in(m->window, 1e-3, 1e9), "window %g s: wanted 1e-3 to 1e9 s", m->window);
