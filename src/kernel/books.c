@@ -95,8 +95,9 @@ void fw_books_weigh(fw_cluster *c, const fw_setup *set, double h)
     }
     if (fw_has_spin_drag(set)) fw_forces_weigh(c, set, h);
     c->is_weighed = true;
+    bool is_crush = fw_is_crush(set);
     for (size_t k = 0; k < c->n_pairs; k++) {
-        if (fw_rim_of(&c->pairs[k]))
+        if (is_crush && fw_rim_of(&c->pairs[k]))
             fw_crush_weigh(c, me, &c->pairs[k], h, to);
         else
             weigh_pair(c, me, &c->pairs[k], h, to);

@@ -180,7 +180,6 @@ static double attempt(fw_cluster *c, const fw_books *books, double h)
         fw_member *m = &c->members[i];
         double     e[4] = {0, 0, 0, 0};
         m->y1[FW_X] = m->r[FW_X] + hg * m->k[last][FW_X], m->y1[FW_Y] = m->r[FW_Y] + hg * m->k[last][FW_Y];
-        if (fw_is_crush(set)) m->y1[FW_TURN] = m->r[FW_TURN] + hg * m->k[last][FW_TURN];
         for (int q = 0; q < 4; q++) m->y1[FW_VX + q] = m->k[last][q];
         for (size_t s = 0; s <= last; s++)
             for (int q = 0; q < 4; q++) e[q] += me->e[s] * m->k[s][FW_VX + q];
@@ -189,6 +188,8 @@ static double attempt(fw_cluster *c, const fw_books *books, double h)
         is_finite &= err < INFINITY;
         m->fastest = fw_member_fastest(m, &set->flow, inv);
     }
+    if (fw_is_crush(set))
+        for (size_t i = 0; i < c->n_members; i++) c->members[i].y1[FW_TURN] = c->members[i].r[FW_TURN] + hg * c->members[i].k[last][FW_TURN];
     worst /= set->tolerance * set->velocity_scale;
     for (size_t k = 0; k < c->n_pairs; k++) {
         fw_pair *p = &c->pairs[k];

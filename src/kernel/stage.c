@@ -182,11 +182,14 @@ static double sweep_crushing(fw_cluster *c, size_t s)
  * its size, and what is left in it adds up whatever its sign (+1.0 % of depth in 1000 windows at 30 % ice, 0.5 m/s, accuracy 1 %; so 0.0 %). */
 static void settle_structure(fw_cluster *c, size_t s)
 {
-    for (size_t k = 0; k < c->n_pairs; k++)
-        if (fw_rim_of(&c->pairs[k]))
-            fw_crush_solve(&c->pairs[k], s);
-        else if (c->pairs[k].b == FW_WALL)
-            solve_contact(&c->pairs[k]);
+    for (size_t k = 0; k < c->n_pairs; k++) {
+        fw_pair *p = &c->pairs[k];
+        if (p->b != FW_WALL) continue;
+        if (fw_rim_of(p))
+            fw_crush_solve(p, s);
+        else
+            solve_contact(p);
+    }
 }
 
 /* Drag follows the solved velocity; impulses stay. Returns the largest change of a velocity that was worth it. */
@@ -258,7 +261,9 @@ bool fw_stage_solve(fw_cluster *c, const fw_books *books, size_t s, double h)
         p->slip[s] = slipping(p, p->ma->V, p->mb->V);
         p->depth[s] = p->depth_star + hg * (p->rate[s] - p->rate_star);
         p->dir[s][0] = p->nx, p->dir[s][1] = p->ny;
-        if (fw_rim_of(p)) fw_crush_end(p, s, inv);
     }
+    if (fw_is_crush(set))
+        for (size_t k = 0; k < c->n_pairs; k++)
+            if (fw_rim_of(&c->pairs[k])) fw_crush_end(&c->pairs[k], s, inv);
     return is_solved;
 }
