@@ -31,6 +31,12 @@ typedef struct fw_service {
     double allowance; /* [mm], 0: none */
 } fw_service;
 
+/* What acts on a campaign's answers after the run; not part of the hash. */
+typedef struct fw_after {
+    bool            has_water_level;
+    fw_distribution water_level; /* above the mean level [m] */
+} fw_after;
+
 typedef struct fw_campaign {
     char      name[64];
     char     *text;     /* the file as read, owned, NUL-terminated */
@@ -43,6 +49,7 @@ typedef struct fw_campaign {
     fw_points points;
     fw_precision precision;     /* not part of the hash: a run may be continued to a finer precision */
     fw_service   service;       /* not part of the hash */
+    fw_after     after;
     size_t       n_not_applied; /* keys that are read and checked but not acted on yet */
     char (*not_applied)[96];    /* (n_not_applied), owned */
     size_t n_sets; /* --set overrides that settings already contains; kept so that text + sets give it again */

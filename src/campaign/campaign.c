@@ -14,5 +14,6 @@ void fw_campaign_free(fw_campaign *c)
     free(c->sets);
     fw_site_free(&c->site);
     free(c->model.tide.rows);
+    fw_distribution_free(&c->after.water_level);
     memset(c, 0, sizeof *c);
 }

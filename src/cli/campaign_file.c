@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "cli/after_file.h"
 #include "cli/config.h"
 #include "cli/distribution_file.h"
 #include "cli/drift_file.h"
@@ -318,6 +319,7 @@ static fw_status read_campaign(const fw_reader *r, const char *file, int64_t see
     FW_TRY(settle_effects(r, c));
     FW_TRY(read_precision(r, &v, &c->precision));
     FW_TRY(read_service(r, &v, c));
+    FW_TRY(fw_file_read_after(r, &c->model, &c->after));
     fw_status status = fw_model_check(&c->model, r->m);
     if (status != FW_OK) {
         fw_msg_prefix(r->m, "%.200s: ", file);

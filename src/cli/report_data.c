@@ -149,6 +149,30 @@ static void json_ledger(fw_json *j, const fw_answer *a)
     fw_json_end(j);
 }
 
+/* Only what the campaign asks for. */
+static void json_after(fw_json *j, const fw_campaign *c, const fw_answer *a)
+{
+    const fw_water_level *w = &a->water_level;
+    if (!c->after.has_water_level) return;
+    fw_json_key(j, "water_level");
+    fw_json_begin_object(j);
+    count(j, "point", a->governing_point);
+    number(j, "thickness_m", w->n ? w->thickness : NAN);
+    number(j, "most_height_m", w->n ? w->most_height : NAN);
+    number(j, "most_share", w->n ? w->most_share : NAN);
+    number(j, "band_low_m", w->n ? w->band_low : NAN);
+    number(j, "band_high_m", w->n ? w->band_high : NAN);
+    fw_json_key(j, "height_m");
+    fw_json_begin_array(j);
+    for (size_t i = 0; i < w->n; i++) fw_json_number(j, w->height[i]);
+    fw_json_end(j);
+    fw_json_key(j, "share");
+    fw_json_begin_array(j);
+    for (size_t i = 0; i < w->n; i++) fw_json_number(j, w->share[i]);
+    fw_json_end(j);
+    fw_json_end(j);
+}
+
 void fw_report_print_json(FILE *to, const fw_campaign *c, const fw_answer *a)
 {
     fw_json j = fw_json_onto(to);
@@ -167,6 +191,7 @@ void fw_report_print_json(FILE *to, const fw_campaign *c, const fw_answer *a)
     json_life(&j, a);
     json_ledger(&j, a);
     fw_json_key(&j, "effects_ledger"), fw_effects_json_rows(&j, &a->effects);
+    json_after(&j, c, a);
     fw_json_key(&j, "not_applied");
     fw_json_begin_array(&j);
     for (size_t i = 0; i < c->n_not_applied; i++) fw_json_string(&j, c->not_applied[i]);

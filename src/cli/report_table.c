@@ -141,6 +141,19 @@ static void print_governing(FILE *to, const fw_campaign *c, const fw_answer *a)
     }
 }
 
+static void print_water_level(FILE *to, const fw_campaign *c, const fw_answer *a)
+{
+    const fw_water_level *w = &a->water_level;
+    if (!c->after.has_water_level) return;
+    if (w->n == 0) {
+        fprintf(to, "over height: nothing wore\n");
+        return;
+    }
+    fprintf(to, "over height, there: most at %+.2f m about the mean level, %.3g %% of a window's depth; 90 %% of the wear between %+.2f and %+.2f m "
+                "(ice that wore is %.2f m thick)\n",
+            w->most_height, 100 * w->most_share, w->band_low, w->band_high, w->thickness);
+}
+
 static void print_life(FILE *to, const fw_campaign *c, const fw_answer *a)
 {
     char   text[128], unit[32];
@@ -224,6 +237,7 @@ void fw_report_print_table(FILE *to, const fw_campaign *c, const fw_answer *a)
     print_heading(to, c, a);
     print_points(to, a);
     print_governing(to, c, a);
+    print_water_level(to, c, a);
     print_life(to, c, a);
     print_ledger(to, a);
     print_effects(to, a);

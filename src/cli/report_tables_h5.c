@@ -4,7 +4,7 @@
 #include "cli/effects_tables.h"
 #include "cli/table_builder.h"
 
-enum { N_TABLES = 5 + FW_EFFECTS_TABLES };
+enum { N_TABLES = 5, MOST_TABLES = N_TABLES + FW_EFFECTS_TABLES + 1 };
 
 static void build_percentiles(fw_table_builder *b, const fw_answer *a, fw_msg *m)
 {
@@ -68,19 +68,29 @@ static void build_ledger(fw_table_builder *b, const fw_answer *a, fw_msg *m)
     }
 }
 
+static void build_water_level(fw_table_builder *b, const fw_answer *a, fw_msg *m)
+{
+    const fw_water_level *w = &a->water_level;
+    fw_table_start(b, "water_level", w->n, m);
+    double *height = fw_table_number_column(b, "height", "m", "height above the mean water level");
+    double *share = fw_table_number_column(b, "share", "1", "share of a window's depth at that height, at the governing point");
+    for (size_t i = 0; height && share && i < w->n; i++) height[i] = w->height[i], share[i] = w->share[i];
+}
+
 fw_status fw_report_write(const char *path, const fw_campaign *c, const fw_record_source *records, const fw_answer *a,
                           fw_msg *m)
 {
-    size_t           n = a->effects.n_rows ? N_TABLES : N_TABLES - FW_EFFECTS_TABLES;
-    fw_table_builder builders[N_TABLES];
-    fw_table         tables[N_TABLES];
+    fw_table_builder builders[MOST_TABLES];
+    fw_table         tables[MOST_TABLES];
+    size_t           n = N_TABLES;
     fw_status        s = FW_OK;
     build_percentiles(&builders[0], a, m);
     build_points(&builders[1], a, m);
     build_life(&builders[2], a, m);
     build_ledger(&builders[3], a, m);
     fw_accuracy_file_build_measured(&builders[4], &a->measured, m);
-    if (a->effects.n_rows) fw_effects_tables_build(&builders[5], &a->effects, m);
+    if (a->effects.n_rows) fw_effects_tables_build(&builders[n], &a->effects, m), n += FW_EFFECTS_TABLES;
+    if (c->after.has_water_level) build_water_level(&builders[n++], a, m);
     for (size_t i = 0; i < n; i++) {
         tables[i] = builders[i].table;
         if (s == FW_OK) s = builders[i].status;

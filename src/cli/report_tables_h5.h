@@ -1,5 +1,6 @@
 /* NAME.h5 of an answer: /percentiles, /points, /service_life and /ledger are what the report prints, /accuracy what its
- * numerical rows were made from, /effects and /effects_summary its rows of effects, where they were measured. */
+ * numerical rows were made from, /effects and /effects_summary its rows of effects, where they were measured; /water_level the shares
+ * over height, of a campaign with that key. */
 #ifndef FW_CLI_REPORT_TABLES_H5_H
 #define FW_CLI_REPORT_TABLES_H5_H
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "cli/after_file.h"
 #include "cli/config.h"
 #include "cli/drift_file.h"
 #include "cli/effects_file.h"
@@ -72,6 +73,7 @@ static fw_status read_scene(const fw_reader *r, const char *file, fw_scene *s)
     FW_TRY(fw_read_section(r, &fw_table_scene_structure, "structure", fw_yaml_get(r->root, "structure"), &v, NULL));
     FW_TRY(fw_read_section(r, &fw_table_scene_ice, "ice", ice, &v, NULL));
     FW_TRY(fw_read_section(r, &fw_table_scene_current, "current", fw_yaml_get(r->root, "current"), &v, NULL));
+    FW_TRY(fw_file_refuse_after(r));
     FW_TRY(fw_file_read_model(r, &v, &s->model));
     if (!(v.temperature <= -v.temperature_floor)) {
         const fw_node *n = fw_yaml_get(ice, "temperature");

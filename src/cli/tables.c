@@ -55,6 +55,8 @@ static const fw_key WATER[] = {
            "drag coefficient on a floe's lower face; acts where it is given, or where there is no form drag"),
     FLAG("added_mass", has_added_mass, "off", "the water round a floe is moved with it"),
     FLAG("deflected_flow", has_deflected_flow, "off", "the current goes round the structure instead of through it"),
+    SHAPED("level", "", "distribution in m",
+           "of the water about its mean; spreads a campaign's wear over height, after the run; left out: none is worked out"),
 };
 SECTION(fw_table_water, "water", "water and what it does to a floe", WATER);
 

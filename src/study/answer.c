@@ -234,6 +234,9 @@ static fw_status answer(fw_answer *a, const fw_campaign *c, const question *q, c
     a->governing_point = governing->point;
     FW_TRY(fw_window_make(&w, d, (size_t)(governing - a->percentiles) / q->n_percentiles, m));
     fw_status s = fw_ledger_rows(a, c, &w, governing, m);
+    if (s == FW_OK && c->after.has_water_level)
+        s = fw_water_level_make(&a->water_level, &c->after.water_level, c->model.ice_density / c->model.water_density, d->n, d->thickness, w.means,
+                                m);
     fw_window_free(&w);
     return s;
 }

@@ -6,6 +6,7 @@
 #include "floewear/campaign.h"
 #include "study/effects_ledger.h"
 #include "study/measured.h"
+#include "study/water_level.h"
 
 /* Reads record id (0 .. n-1) into r, which is initialised with the campaign's sizes. */
 typedef struct fw_answer_source {
@@ -69,6 +70,7 @@ typedef struct fw_answer {
     fw_effects_ledger  effects;  /* what its rows of switched-off effects are made from */
     size_t             n_ledger;
     fw_ledger_row     *ledger;
+    fw_water_level     water_level; /* of the governing point */
 } fw_answer;
 
 /* o: NULL or zeros stand for 50, 90, 95, 99 % and the precision's own percentile, all points, the first law, the

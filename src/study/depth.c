@@ -60,7 +60,9 @@ fw_status fw_depth_add(fw_depth *d, const fw_record *r, fw_msg *m)
     FW_TRY(fw_grow(&d->direction_law, &d->capacity_law, d->n + 1, sizeof *d->direction_law, "direction laws of records",
                    m));
     FW_TRY(fw_grow(&d->load, &d->capacity_load, (d->n + 1) * q->n_used, sizeof *d->load, "wear loads of records", m));
+    FW_TRY(fw_grow(&d->thickness, &d->capacity_thickness, d->n + 1, sizeof *d->thickness, "thicknesses of records", m));
     d->direction_law[d->n] = (uint32_t)law;
+    d->thickness[d->n] = r->wear_thickness;
     const double *ring = fw_record_load(r, d->law, FW_RING_LOAD);
     double       *load = d->load + d->n * q->n_used;
     for (size_t k = 0; k < q->n_used; k++) {
@@ -97,6 +99,7 @@ void fw_depth_free(fw_depth *d)
     fw_scale_free(&d->scale);
     fw_directions_free(&d->directions);
     free(d->direction_law);
+    free(d->thickness);
     free(d->load);
     free(d->ln_load);
     free(d->impact);

@@ -22,8 +22,9 @@ typedef struct fw_depth {
     size_t        n_points;
     const double *bearings; /* (n_points) [deg]; borrowed */
     size_t        law;      /* abrasion law */
-    size_t        n, n_failed, capacity_law, capacity_load, capacity_ln;
+    size_t        n, n_failed, capacity_law, capacity_thickness, capacity_load, capacity_ln;
     uint32_t     *direction_law;        /* (n) row of directions per record; owned */
+    double       *thickness;            /* (n) of what wore in each record [m]; owned */
     double       *load;                 /* (n x n_used) [MPa^m km]; owned */
     double       *ln_load;              /* (n x n_used) its logarithm, only with a continuous temperature law; owned */
     double       *impact, *high, *path; /* (n_points) sums over records of direction means; owned */

@@ -103,6 +103,22 @@ static void minimal(void **state)
     fw_campaign_free(&c);
 }
 
+/* The water level is read, and is no part of what names the campaign's records. */
+static void after_the_run(void **state)
+{
+    fw_campaign c, plain;
+    (void)state;
+
+    read_good(&c, GOOD "after.yaml", 0, NULL, -1);
+    read_good(&plain, GOOD "minimal.yaml", 0, NULL, -1);
+    assert_true(!plain.after.has_water_level);
+    const fw_distribution *level = &c.after.water_level;
+    assert_true(c.after.has_water_level && level->kind == FW_DIST_NORMAL && level->a == 0.1 && level->b == 0.4);
+    assert_true(c.hash == plain.hash);
+    fw_campaign_free(&c);
+    fw_campaign_free(&plain);
+}
+
 /* The campaigns that come with the program. */
 static void ready_campaigns(void **state)
 {
@@ -325,7 +341,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sketch),
-        cmocka_unit_test(minimal),
+        cmocka_unit_test(after_the_run), cmocka_unit_test(minimal),
         cmocka_unit_test(ready_campaigns),
         cmocka_unit_test(measuring_points),
         cmocka_unit_test(choices),

@@ -56,6 +56,8 @@ static inline double made_up_shape(const made_up *s, size_t arc, size_t n_arcs)
     return 1 + cos(((double)arc + 0.5) * 6.283185307179586 / (double)n_arcs - s->twist_deg * 0.017453292519943295);
 }
 
+static inline double made_up_thickness(uint64_t id) { return 0.5 + 0.1 * (double)(id % 7); }
+
 static inline fw_status made_up_read(void *self, uint64_t id, fw_record *r, fw_msg *m)
 {
     (void)m;
@@ -66,6 +68,7 @@ static inline fw_status made_up_read(void *self, uint64_t id, fw_record *r, fw_m
     r->id = id;
     r->status = is_failed ? FW_E_NUMERIC : FW_OK;
     r->host_cpu_s = 2;
+    r->wear_thickness = made_up_thickness(id);
     memset(r->rings, 0, fw_record_n_rings(n, r->n_laws) * sizeof *r->rings);
     for (size_t k = 0; k < n && !is_failed; k++) {
         r->rings[k] = 1e-3; /* path [km] */
