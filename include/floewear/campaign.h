@@ -33,8 +33,9 @@ typedef struct fw_service {
 
 /* What acts on a campaign's answers after the run; not part of the hash. */
 typedef struct fw_after {
-    bool            has_water_level;
+    bool            has_water_level, has_law_scatter;
     fw_distribution water_level; /* above the mean level [m] */
+    fw_distribution law_scatter; /* factor on the law's rate [-] */
 } fw_after;
 
 typedef struct fw_campaign {

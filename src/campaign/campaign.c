@@ -15,5 +15,6 @@ void fw_campaign_free(fw_campaign *c)
     fw_site_free(&c->site);
     free(c->model.tide.rows);
     fw_distribution_free(&c->after.water_level);
+    fw_distribution_free(&c->after.law_scatter);
     memset(c, 0, sizeof *c);
 }

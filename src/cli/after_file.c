@@ -8,7 +8,7 @@
 /* Metres about the mean: beyond every tide and surge, and surely a wrong unit or datum. */
 static const double FARTHEST = 50;
 
-static const char *const KEYS[][2] = {{"water", "level"}};
+static const char *const KEYS[][2] = {{"water", "level"}, {"abrasion", "scatter"}};
 
 static const fw_node *find(const fw_reader *r, size_t i) { return fw_yaml_get(fw_yaml_get(r->root, KEYS[i][0]), KEYS[i][1]); }
 
@@ -28,11 +28,27 @@ static fw_status read_level(const fw_reader *r, const fw_node *n, const fw_model
     return FW_OK;
 }
 
+static fw_status read_scatter(const fw_reader *r, const fw_node *n, fw_after *out)
+{
+    if (!n) return FW_OK;
+    FW_TRY(fw_read_distribution(r, n, "abrasion.scatter", "1", &out->law_scatter));
+    out->has_law_scatter = true;
+    double low = fw_distribution_min(&out->law_scatter);
+    if (!(low >= 0)) return fw_yaml_fail(n, r->m, "abrasion.scatter reaches down to %g, wanted a factor of at least 0", low);
+    if (!(fw_distribution_quantile(&out->law_scatter, 0.5) > 0))
+        return fw_yaml_fail(n, r->m, "abrasion.scatter has the median 0, wanted more than 0");
+    return FW_OK;
+}
+
 fw_status fw_file_read_after(const fw_reader *r, const fw_model *model, fw_after *out)
 {
     memset(out, 0, sizeof *out);
     fw_status status = read_level(r, find(r, 0), model, out);
-    if (status != FW_OK) fw_distribution_free(&out->water_level);
+    if (status == FW_OK) status = read_scatter(r, find(r, 1), out);
+    if (status != FW_OK) {
+        fw_distribution_free(&out->water_level);
+        fw_distribution_free(&out->law_scatter);
+    }
     return status;
 }
 

@@ -153,6 +153,15 @@ static void json_ledger(fw_json *j, const fw_answer *a)
 static void json_after(fw_json *j, const fw_campaign *c, const fw_answer *a)
 {
     const fw_water_level *w = &a->water_level;
+    if (a->law_scatter.is_given) {
+        fw_json_key(j, "law_scatter");
+        fw_json_begin_object(j);
+        number(j, "mean", a->law_scatter.mean);
+        number(j, "median", a->law_scatter.median);
+        number(j, "low", a->law_scatter.low);
+        number(j, "high", a->law_scatter.high);
+        fw_json_end(j);
+    }
     if (!c->after.has_water_level) return;
     fw_json_key(j, "water_level");
     fw_json_begin_object(j);

@@ -70,6 +70,8 @@ static const fw_key ABRASION[] = {
     SHAPED("laws", "[bekker2011]", "list of names, {archard: {...}} or {power: {...}}",
            "abrasion laws; the first one governs the stop rule and the report"),
     SHAPED("crushing_limit", "", "{pressure, exponent}", "largest pressure that wears; left out: pressures of a first touch have no bound"),
+    SHAPED("scatter", "", "distribution of a factor",
+           "on the law's rate: a row of the ledger, no part of the percentiles; left out: not measured"),
 };
 SECTION(fw_table_abrasion, "abrasion", "from contact pressure and sliding path to depth", ABRASION);
 

@@ -54,6 +54,12 @@ typedef struct fw_ledger_row {
     double cost_to_halve_cpu_s;                 /* on the machines that computed the records; NAN: not measured */
 } fw_ledger_row;
 
+/* The factor on the law's rate, as the campaign gives it. */
+typedef struct fw_law_scatter {
+    bool   is_given;
+    double mean, median, low, high; /* low, high: 95 % lie between them */
+} fw_law_scatter;
+
 typedef struct fw_answer {
     uint64_t n, n_failed;
     double   confidence;
@@ -70,6 +76,7 @@ typedef struct fw_answer {
     fw_effects_ledger  effects;  /* what its rows of switched-off effects are made from */
     size_t             n_ledger;
     fw_ledger_row     *ledger;
+    fw_law_scatter     law_scatter;
     fw_water_level     water_level; /* of the governing point */
 } fw_answer;
 

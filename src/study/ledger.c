@@ -202,6 +202,23 @@ static size_t switched_off_effects(fw_ledger_row *row, const fw_campaign *c, con
     return (size_t)(row - sum);
 }
 
+/* A factor on every depth: no part of the percentiles, which are those of the law as it stands. */
+static void law_scatter(fw_ledger_row *row, const fw_campaign *c, fw_law_scatter *out, const fw_percentile_row *g)
+{
+    if (!c->after.has_law_scatter) {
+        unmeasured(row, "law and its scatter", "laboratory and field data (a published fit has R2 66 %)");
+        return;
+    }
+    const fw_distribution *f = &c->after.law_scatter;
+    *out = (fw_law_scatter){true, fw_distribution_mean(f), fw_distribution_quantile(f, 0.5), fw_distribution_quantile(f, 0.025),
+                            fw_distribution_quantile(f, 0.975)};
+    SAY(row->row, "law and its scatter");
+    row->amount = (out->high - out->low) / (2 * out->median);
+    SAY(row->shrinks_with, "laboratory and field data: factor of mean %.3g, 95 %% of it in %.3g .. %.3g, which makes P%g %.3g .. %.3g mm", out->mean,
+        out->low, out->high, g->percentile, out->low * g->depth_mm, out->high * g->depth_mm);
+    SAY(row->cost_to_halve, "not known: no computation shrinks it");
+}
+
 static void life_assumption(fw_ledger_row *row, const fw_campaign *c)
 {
     unmeasured(row, "life: independent windows", "windows that resemble their neighbours scatter a life more");
@@ -231,7 +248,7 @@ fw_status fw_ledger_rows(fw_answer *a, const fw_campaign *c, const fw_window *w,
     overlaps(row++, w);
     packed_ice(row++, w);
     unmeasured(row++, "ice field against scenario", "more realisations");
-    unmeasured(row++, "law and its scatter", "laboratory and field data (a published fit has R2 66 %)");
+    law_scatter(row++, c, &a->law_scatter, governing);
     row += switched_off_effects(row, c, &a->effects, w);
     if (c->service.is_asked) {
         between_years(row++, c);

@@ -103,7 +103,7 @@ static void minimal(void **state)
     fw_campaign_free(&c);
 }
 
-/* The water level is read, and is no part of what names the campaign's records. */
+/* Water level and scatter are read, and are no part of what names the campaign's records. */
 static void after_the_run(void **state)
 {
     fw_campaign c, plain;
@@ -111,9 +111,11 @@ static void after_the_run(void **state)
 
     read_good(&c, GOOD "after.yaml", 0, NULL, -1);
     read_good(&plain, GOOD "minimal.yaml", 0, NULL, -1);
-    assert_true(!plain.after.has_water_level);
-    const fw_distribution *level = &c.after.water_level;
+    assert_true(!plain.after.has_water_level && !plain.after.has_law_scatter);
+    const fw_distribution *level = &c.after.water_level, *scatter = &c.after.law_scatter;
     assert_true(c.after.has_water_level && level->kind == FW_DIST_NORMAL && level->a == 0.1 && level->b == 0.4);
+    assert_true(c.after.has_law_scatter && scatter->kind == FW_DIST_WEIBULL);
+    assert_true(scatter->a == 1 && scatter->b == 1.5 && scatter->c == 0.2);
     assert_true(c.hash == plain.hash);
     fw_campaign_free(&c);
     fw_campaign_free(&plain);

@@ -65,6 +65,34 @@ static void constant_scenes_give_order_statistics(void **state)
     fw_answer_free(&a);
 }
 
+/* Weibull of three parameters: x_p = location + scale (-ln(1 - p))^(1/shape). Percentiles of windows do not know of it. */
+static void scatter_of_the_law_is_a_row(void **state)
+{
+    (void)state;
+    double           bearings[24];
+    fw_campaign      c = made_up_campaign(bearings);
+    made_up          s = {.campaign = &c, .sigma = 1};
+    fw_answer        a, plain;
+    fw_answer_source source = made_up_source(&s, 400);
+    assert_int_equal(fw_answer_make(&plain, &c, &source, &usual, NULL), FW_OK);
+    assert_true(!plain.law_scatter.is_given && isnan(ledger_of(&plain, "law and its scatter")->amount));
+    c.after.has_law_scatter = true;
+    c.after.law_scatter = made_up_law(FW_DIST_WEIBULL, 0.9, 1.4);
+    c.after.law_scatter.c = 0.25;
+    assert_int_equal(fw_answer_make(&a, &c, &source, &usual, NULL), FW_OK);
+    double x[3], p[3] = {0.025, 0.5, 0.975};
+    for (int i = 0; i < 3; i++) x[i] = 0.25 + 0.9 * pow(-log(1 - p[i]), 1 / 1.4);
+    const fw_ledger_row *row = ledger_of(&a, "law and its scatter");
+    CHECK_RELATIVE(row->amount, (x[2] - x[0]) / (2 * x[1]), 1e-12);
+    CHECK_RELATIVE(a.law_scatter.mean, 0.25 + 0.9 * tgamma(1 + 1 / 1.4), 1e-12);
+    char text[64];
+    snprintf(text, sizeof text, "P90 %.3g .. %.3g mm", x[0] * row_of(&a, 13, 90)->depth_mm, x[2] * row_of(&a, 13, 90)->depth_mm);
+    if (!strstr(row->shrinks_with, text)) fail_msg("'%s' does not say '%s'", row->shrinks_with, text);
+    for (size_t i = 0; i < a.n_percentiles; i++) assert_true(a.percentiles[i].depth_mm == plain.percentiles[i].depth_mm);
+    fw_answer_free(&a);
+    fw_answer_free(&plain);
+}
+
 static void uniform_temperature_on_one_load_is_a_closed_form(void **state)
 {
     (void)state;
@@ -416,6 +444,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(constant_scenes_give_order_statistics),
+        cmocka_unit_test(scatter_of_the_law_is_a_row),
         cmocka_unit_test(uniform_temperature_on_one_load_is_a_closed_form),
         cmocka_unit_test(a_rose_mixes_lognormals),
         cmocka_unit_test(turning_the_current_permutes_the_points),
