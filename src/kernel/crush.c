@@ -80,6 +80,17 @@ double fw_rim_deepest(const fw_rim *r, double place, double *slope)
     return D;
 }
 
+void fw_rim_press(fw_rim *r, fw_imprint own)
+{
+    double x = own.at * ((double)r->n / TWO_PI), half = fw_smaller(sqrt(2 * r->reduced * own.depth) / r->width + 1, 0.5 * (double)r->n - 1), slope;
+    long   n = (long)r->n, last = (long)floor(x + half);
+    for (long k = (long)ceil(x - half); k <= last; k++) {
+        double      place = own.at + ((double)k - x) * (TWO_PI / (double)n);
+        fw_imprint *node = &r->node[((k % n) + n) % n];
+        if (fw_rim_imprint(r, &own, place, &slope) > fw_rim_imprint(r, node, place, &slope)) *node = own;
+    }
+}
+
 double fw_rim_force(const fw_rim *r, double depth, double *chord)
 {
     *chord = fw_lens_chord(depth, r->radius, r->structure_radius);

@@ -15,6 +15,8 @@ double fw_rim_place(const double *y);          /* under the wall, in the frame o
 /* One imprint's depth and dD/ds there; D and dD/ds. */
 double fw_rim_imprint(const fw_rim *r, const fw_imprint *i, double place, double *slope);
 double fw_rim_deepest(const fw_rim *r, double place, double *slope);
+/* The imprint of the wall's disc pressed in: to one node past either edge, so that the edge lies between two. */
+void fw_rim_press(fw_rim *r, fw_imprint own);
 /* F(d), and the chord. */
 double fw_rim_force(const fw_rim *r, double depth, double *chord);
 /* Elastic part of N on the line of D > 0, F = F(D), and the damper beside it. */

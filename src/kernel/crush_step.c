@@ -243,18 +243,6 @@ void fw_crush_interval(const fw_pair *p, size_t n_stages, fw_wear_interval *iv)
 
 /* --- memory ----------------------------------------------------------------------------------------------------------- */
 
-/* The imprint of the wall's disc pressed in by d: to one node past either edge, so that the edge lies between two. */
-static void press(fw_rim *r, fw_imprint own)
-{
-    double x = own.at * ((double)r->n / TWO_PI), half = fw_smaller(sqrt(2 * r->reduced * own.depth) / r->width + 1, 0.5 * (double)r->n - 1), slope;
-    long   n = (long)r->n, last = (long)floor(x + half);
-    for (long k = (long)ceil(x - half); k <= last; k++) {
-        double      place = own.at + ((double)k - x) * (TWO_PI / (double)n);
-        fw_imprint *node = &r->node[((k % n) + n) % n];
-        if (fw_rim_imprint(r, &own, place, &slope) > fw_rim_imprint(r, node, place, &slope)) *node = own;
-    }
-}
-
 void fw_crush_commit(fw_cluster *c, fw_pair *p, size_t last, double h)
 {
     fw_rim *r = p->rim;
@@ -269,7 +257,7 @@ void fw_crush_commit(fw_cluster *c, fw_pair *p, size_t last, double h)
             double u = (double)k / n, slope, d = k == n ? p->depth[last] : value(o.d, u), at = o.from + value(o.at, u);
             if (!(d > 0) || d < fw_rim_deepest(r, at, &slope)) continue;
             r->own = (fw_imprint){d, at};
-            press(r, r->own);
+            fw_rim_press(r, r->own);
         }
     }
     r->moment[0] = r->moment[last], r->hold[0] = r->hold[last], r->lever[0] = r->lever[last], r->turning[0] = r->turning[last], r->line[0] = r->line[last];

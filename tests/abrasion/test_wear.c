@@ -247,12 +247,68 @@ static void share_above_high_pressure(void **state)
     fw_wear_free(&w);
 }
 
+/* Ice that crushes from a touch on: p = P0 (b h)^-q, d = v t - g t^2 / 2, slip 0.3 (1 - t / 2 end); against 1e6 midpoints in the root of time. Then the flat:
+ * a pressure that is handed over, falling through zero half-way, under the chord of a deepest overlap that shrinks. */
+static void crushing(void **state)
+{
+    (void)state;
+    static const double FIRST[] = {0.3, 1, 0.01}, Q[] = {0, 0.3, 0.5};
+    double              v = 1.8, g = 40, R = 1.25, h = 0.5, P0 = 1.1e6, m = LAWS[0].exponent;
+    for (int q = 0; q < 3; q++)
+        for (int c = 0; c < 3; c++) {
+            double end = 0.03, along = 0, wall = 0, path = 0;
+            fw_wear w;
+            for (int i = 0; i < 1000000; i++) {
+                double x = (i + 0.5) * 1e-6, t = x * x * end, b = fw_lens_chord(v * t - 0.5 * g * t * t, R, 3.7), dt = 2 * x * 1e-6 * end;
+                double slide = 0.3 * (1 - 0.5 * t / end) * dt, rate = pow(P0 * pow(b * h, -Q[q]), m);
+                along += rate * slide, wall += rate * b * slide, path += b * slide;
+            }
+            assert_int_equal(fw_wear_init(&w, 3.7, 360, 2, LAWS, NULL), FW_OK);
+            w.is_open = true;
+            double t = 0, length = FIRST[c] * end;
+            for (int step = 0; t < end * (1 - 1e-12); step++, t += length, length = fmin(4 * length, end - t)) {
+                fw_wear_interval iv = interval(length, t, R, h);
+                iv.is_crushed = iv.is_push = true, iv.push_pressure = P0, iv.push_exponent = Q[q];
+                for (int s = 0; s < 3; s++) {
+                    double at = t + iv.at[s] * length;
+                    iv.normal[s] = 1, iv.slip[s] = 0.3 * (1 - 0.5 * at / end);
+                    if (s != 1) iv.depth[s / 2] = v * at - 0.5 * g * at * at, iv.rate[s / 2] = v - g * at;
+                }
+                fw_wear_collect(&w, &iv);
+            }
+            fw_wear_finish(&w);
+            CHECK_RELATIVE(w.sums[0].along, along, Q[q] > 0 ? 2e-3 : 1e-6);
+            CHECK_RELATIVE(w.sums[0].x_wall, wall, Q[q] > 0 ? 1e-4 : 1e-6);
+            double over = 0;
+            for (int k = 0; k < 360; k++) over += w.path[k] * 2 * PI * 3.7 / 360;
+            CHECK_RELATIVE(over, path, 1e-6);
+            assert_true(fw_wear_conservation(&w) < 1e-12 && w.sums[0].beyond == 0);
+            fw_wear_free(&w);
+        }
+    fw_wear w;
+    assert_int_equal(fw_wear_init(&w, 3.7, 360, 2, LAWS, NULL), FW_OK);
+    w.is_open = true;
+    fw_wear_interval iv = interval(0.2, 0.01, R, h);
+    iv.is_crushed = true, iv.depth[0] = 0.3, iv.depth[1] = 0.2, iv.rate[0] = iv.rate[1] = -0.5; /* deeper than a tenth of R: gone, not overlapping */
+    for (int s = 0; s < 3; s++) iv.normal[s] = 8e5 * (1 - 2 * iv.at[s]), iv.slip[s] = -0.2;
+    fw_wear_collect(&w, &iv);
+    double along = 0, wall = 0;
+    for (int i = 0; i < 100000; i++) {
+        double u = 0.5 * (i + 0.5) * 1e-5, rate = pow(8e5 * (1 - 2 * u), m) * 0.2 * 0.1 * 1e-5;
+        along += rate, wall += rate * fw_lens_chord(0.3 - 0.1 * u, R, 3.7);
+    }
+    CHECK_RELATIVE(w.sums[0].along, along, 1e-5);
+    CHECK_RELATIVE(w.sums[0].x_wall, wall, 1e-5);
+    assert_true(w.sums[0].beyond == 0);
+    fw_wear_free(&w);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(steady_rubbing),           cmocka_unit_test(first_touch),
         cmocka_unit_test(release_inside_a_step),    cmocka_unit_test(conserves_and_rotates),
         cmocka_unit_test(order_of_each_rule),       cmocka_unit_test(long_slides_stay_even),
-        cmocka_unit_test(share_above_high_pressure)};
+        cmocka_unit_test(share_above_high_pressure), cmocka_unit_test(crushing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
