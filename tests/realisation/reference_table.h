@@ -8,7 +8,7 @@
 #include "check.h"
 #include "floewear/realisation.h"
 
-enum { MAX_COLUMNS = 32, MAX_ROWS = 32 };
+enum { MAX_COLUMNS = 48, MAX_ROWS = 64 };
 
 typedef struct table {
     char   line[MAX_ROWS][1024];
