@@ -84,7 +84,10 @@ static void answers(void **state)
     q.campaign.service.is_asked = false;
     ask("answer of 120 records", &q, 120); /* beyond 20000 entries: joined in bins */
     q.campaign.precision.quantity = FW_QUANTITY_MEAN;
-    ask("answer about a mean", &q, 30);
+    q.campaign.model.ice_density = 900, q.campaign.model.water_density = 1025;
+    q.campaign.after.has_water_level = true;
+    fw_distribution_constant(&q.campaign.after.water_level, 0);
+    ask("answer about a mean, over height", &q, 30);
 }
 
 /* ---- accuracy ---- */
