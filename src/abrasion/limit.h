@@ -1,8 +1,9 @@
 /* The pressure above which ice crushes: limit(A) = P0 (A / 1 m2)^-q, A = b h. What wears is min(sigma, limit), so the force that
  * counts is min(N, P0 A^(1 - q)). It caps sigma in the wear alone: N and the motion know nothing of it.
  *
- * Constant (q = 0) or of the kind of ISO 19906:2019, A.8.2.4.3 (7.4 MPa, q = 0.7). With q < 1 the patch of a touch, b ~ t^(1/2),
- * always begins above the limit (N > 0 = P0 0^(1 - q)) and falls below it once:
+ * Constant (q = 0) or a pressure-area law like that of ISO 19906 for local pressures of massive ice, 7.4 MPa and q = 0.7 (there up to 10 m2;
+ * patches here are smaller). With q < 1 the patch of a touch, b ~ t^(1/2), always begins above the limit (N > 0 = P0 0^(1 - q)) and falls
+ * below it once:
  *
  *     rate                        capped: sigma^m ~ t^(-q m/2), integrable for q m < 2, whatever sigma does without a limit
  *       |\                        open:   sigma^m ~ t^(-m/2) from the crossing on, which any m survives
