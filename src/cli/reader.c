@@ -44,7 +44,6 @@ fw_status fw_read_quantity(const fw_reader *r, const fw_node *n, const char *pat
 static bool is_later(const fw_section *s, const char *key)
 {
     static const char *const rows[][2] = {
-        {"water", "level"},
         {"field", "upstream"},
     };
 

@@ -20,8 +20,9 @@ static fw_setup setup(bool has_flat, double speed)
 {
     fw_pressure_law p = {P, 0};
     return (fw_setup){.structure_radius = RS,
-                      .speed = speed,
+                      .flow = {.ux = speed, .ice_x = speed},
                       .contact = {2e6, 1, 0.1, 1},
+                      .floe_contact = {2e6, 1, 0.1, 1},
                       .has_drag = true,
                       .has_rotation = true,
                       .has_friction = true,
