@@ -80,11 +80,38 @@ fw_box fw_kernel_needs_ice(const fw_kernel *k, const fw_world *w)
     return box;
 }
 
+static bool lies_on_awake_floe(const fw_world *w, double x, double y, double radius)
+{
+    for (size_t i = 0; i < w->n_bodies; i++) {
+        double dx = x - w->bodies[i].x, dy = y - w->bodies[i].y, reach = radius + w->bodies[i].radius;
+        if (dx * dx + dy * dy < reach * reach) return true;
+    }
+    return false;
+}
+
+/* A strip that turns takes in ice that was not there, and awake floes may have come to lie where it would be: those stay, it does not come. */
+static void make_room(fw_world *w, const fw_strip *was, const fw_strip *is)
+{
+    if (was->cx == is->cx && was->cy == is->cy) return;
+    for (size_t q = 0; q < w->n_blocks; q++) {
+        fw_block *b = &w->blocks[q];
+        for (size_t r = 0; r < b->n && b->n_left; r++) {
+            if (b->is_taken[r] || fw_strip_has(was, b->x[r], b->y[r]) || !fw_strip_has(is, b->x[r], b->y[r])) continue;
+            if (!lies_on_awake_floe(w, b->x[r] + w->drift_x, b->y[r] + w->drift_y, b->radius[r])) continue;
+            b->is_taken[r] = true;
+            b->n_left--;
+        }
+    }
+}
+
 void fw_kernel_turn(fw_kernel *k, fw_world *w, const fw_flow *flow)
 {
     fw_traffic *t = &k->traffic;
+    fw_strip    was = fw_strip_of(&t->setup, w);
     t->setup.flow = *flow;
     t->world = w;
+    fw_strip is = fw_strip_of(&t->setup, w);
+    make_room(w, &was, &is);
     t->books.setup = &t->setup, t->books.world = w;
     for (size_t i = 0; i < k->n_clusters; i++) fw_cluster_restart(k->clusters[i], &t->books);
     t->is_listed = false;
