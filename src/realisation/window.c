@@ -78,11 +78,11 @@ static fw_status attend(void *self)
 static fw_status towards(fw_window_run *r, double t_end, fw_msg *m)
 {
     fw_world *w = r->world;
-    double    until = fmin(t_end, fw_weather_segment_end(&r->weather, w->t));
-    FW_TRY(fw_kernel_step(r->kernel, w, &r->wear, until, m));
-    if (w->t == until && until == fw_weather_segment_end(&r->weather, r->turned)) {
-        r->turned = until;
-        r->setup.flow = fw_weather_flow(&r->weather, until);
+    double    turns = fw_weather_segment_end(&r->weather, r->turned); /* not the one after w->t: a window may begin a rounding before it */
+    FW_TRY(fw_kernel_step(r->kernel, w, &r->wear, fmin(t_end, turns), m));
+    if (w->t == turns) {
+        r->turned = turns;
+        r->setup.flow = fw_weather_flow(&r->weather, turns);
         fw_kernel_turn(r->kernel, w, &r->setup.flow);
     }
     return FW_OK;
