@@ -50,6 +50,15 @@ static double fastest_change(const fw_tide *tide)
     return most;
 }
 
+/* Largest speed of the current, over the scenario's. */
+static double largest_factor(const fw_tide *tide)
+{
+    if (tide->n_rows == 0) return fmax(1, fabs(tide->minor_ratio));
+    double most = 0;
+    for (size_t k = 0; k < tide->n_rows; k++) most = fmax(most, fabs(tide->rows[k].factor));
+    return most;
+}
+
 /* Free drift over the wind's speed of the mean floe and its spread, weighted by area: what the ice as a whole does, and how floes come apart. */
 static fw_status mean_drift(const fw_model *model, int mix, const fw_setup *set, double *mean, double *spread, double *diameter, fw_msg *m)
 {
@@ -88,6 +97,8 @@ fw_status fw_weather_init(fw_weather *w, fw_setup *set, const fw_model *model, c
     }
     if (set->has_deflection && mix >= 0) set->wake_radius = DEFLECTED * model->structure_radius;
     set->flow = fw_weather_flow(w, 0);
+    w->fastest = w->tide ? fmax(fabs(sc->speed) * largest_factor(w->tide), FW_SLOWEST) : fabs(sc->speed);
+    w->fastest += w->drift * fmax(0, hypot(w->wind_x, w->wind_y) - w->fastest);
     return FW_OK;
 }
 

@@ -16,6 +16,7 @@ typedef struct fw_weather {
     double         start;         /* the table's 0 [s] */
     double         segment;       /* [s]; INFINITY: nothing changes */
     double         wind_x, wind_y; /* [m/s] */
+    double         fastest;        /* current of the whole course, or ice that the wind drives through it [m/s] */
     double         drift;         /* free drift of the mean floe through the water, over the wind's speed through it */
 } fw_weather;
 

@@ -129,6 +129,7 @@ static fw_status run_once(const fw_scene *scene, const fw_model *model, double f
     if (model->max_evaluations > 0) setup.max_evaluations = model->max_evaluations;
     fw_scenario sc = {.speed = scene->speed, .wind_speed = scene->wind_speed, .wind_angle = scene->wind_angle, .tide_phase = scene->tide_phase};
     FW_TRY(fw_weather_init(&weather, &setup, model, &sc, 0, scene->duration, -1, m));
+    setup.velocity_scale = fmax(fastest, weather.fastest);
     fw_status s = fw_wear_init(&wear, model->structure_radius, model->n_arcs, model->n_laws, model->laws, m);
     if (s == FW_OK) s = fw_world_create(&w, model->structure_radius, m);
     if (s == FW_OK) s = fw_kernel_create(&k, &setup, m);

@@ -111,6 +111,7 @@ fw_status fw_window_open(fw_window_run *r, const fw_model *model, const fw_scena
     FW_CHECK(model->numerics.scheme == FW_SCHEME_EVENTS || !(model->effects & FW_EFFECT_TIDE), m, FW_E_UNSUPPORTED,
              "the plain methods have no current that changes within a window");
     FW_TRY(fw_weather_init(&r->weather, &r->setup, model, sc, fw_accuracy_warm_up(model, sc->speed), model->window, (int)sc->mix, m));
+    r->setup.velocity_scale = r->weather.fastest;
     r->setup.attend = attend, r->setup.attend_self = r;
     FW_TRY(fw_cost_limit(model, sc, &r->setup.max_evaluations, m));
     FW_TRY(fw_wear_init(&r->wear, model->structure_radius, model->n_arcs, model->n_laws, model->laws, m));
