@@ -31,7 +31,7 @@ static fw_status lay(fw_window_run *r, const fw_scenario *sc, fw_msg *m)
     else
         FW_TRY(fw_kernel_create(&r->kernel, &r->setup, m));
     return fw_ice_lay(&r->ice, &f, r->world, r->setup.half_width, r->setup.downstream,
-                      sc->speed * fw_accuracy_warm_up(r->model, sc->speed), r->weather.tide || r->setup.flow.ice_y != 0, m);
+                      sc->speed * fw_accuracy_warm_up(r->model, sc->speed), r->weather.tide || r->setup.flow.ice_y != 0 || r->setup.flow.ice_x < 0, m);
 }
 
 /* How many floes are awake, and how far the jam has grown against the current. */
