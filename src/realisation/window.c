@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "kernel/strip.h"
 #include "realisation/accuracy.h"
 #include "realisation/cost.h"
 
@@ -34,13 +35,19 @@ static fw_status lay(fw_window_run *r, const fw_scenario *sc, fw_msg *m)
                       sc->speed * fw_accuracy_warm_up(r->model, sc->speed), r->weather.tide || r->setup.flow.ice_y != 0 || r->setup.flow.ice_x < 0, m);
 }
 
-/* How many floes are awake, and how far the jam has grown against the current. */
-static void note_extent(fw_world *w)
+/* How many floes are awake, and how far the jam has grown against the current. Where floes are awake before anything touches them those are no
+ * part of it. */
+static void note_extent(fw_world *w, const fw_setup *s)
 {
     fw_ledger *l = &w->ledger;
+    fw_strip   strip = fw_strip_of(s, w);
+    bool       are_touched = !(s->wake_radius > 0 || s->wake_upstream > 0);
     if ((double)w->n_bodies > l->awake_floes) l->awake_floes = (double)w->n_bodies;
-    for (size_t i = 0; i < w->n_bodies; i++)
-        if (-w->bodies[i].x > l->reach) l->reach = -w->bodies[i].x;
+    for (size_t i = 0; i < w->n_bodies; i++) {
+        const fw_body *b = &w->bodies[i];
+        double         upstream = -(strip.cx * b->x + strip.cy * b->y);
+        if (upstream > l->reach && (are_touched || b->is_touched)) l->reach = upstream;
+    }
 }
 
 double fw_window_now(const fw_window_run *r)
@@ -98,7 +105,7 @@ fw_status fw_window_go(fw_window_run *r, double t_end, double t_all, const fw_ti
             FW_TRY(fw_plain_step(r->plain, w, &r->wear, t_end, m));
         else
             FW_TRY(towards(r, t_end, m));
-        note_extent(w);
+        note_extent(w, &r->setup);
         if (quiet % 64 == 0 || r->plain) FW_TRY(attend(r));
     }
     return FW_OK;
