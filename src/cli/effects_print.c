@@ -79,8 +79,8 @@ void fw_effects_print_text(FILE *to, const fw_campaign *c, const fw_effects_ledg
 {
     size_t failed = 0;
     fprintf(to, "%s: what each effect and open choice moves, one at a time, on the same ice\n", c->name);
-    if (isfinite(l->way))
-        fprintf(to, "%zu windows of %g m of ice each, scaled to %g s", l->n_windows, l->way, c->model.window);
+    if (l->seconds < c->model.window)
+        fprintf(to, "%zu windows of %.3g s (%.3g m of ice in the mean), scaled to %g s", l->n_windows, l->seconds, l->way, c->model.window);
     else
         fprintf(to, "%zu windows of %g s", l->n_windows, c->model.window);
     fprintf(to, "; window depth at point %zu (%g deg): mean %.3g mm, P%g %.3g mm; [%g %% interval]\n\n", l->point, c->points.bearing[l->point - 1],
@@ -144,6 +144,7 @@ void fw_effects_print_json(FILE *to, const fw_campaign *c, const fw_effects_ledg
     string(&j, "campaign", c->name);
     count(&j, "n_windows", l->n_windows);
     number(&j, "way_m", l->way);
+    number(&j, "window_s", l->seconds);
     count(&j, "point", l->point);
     number(&j, "bearing_deg", c->points.bearing[l->point - 1]);
     number(&j, "percentile", l->percentile);

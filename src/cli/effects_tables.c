@@ -42,7 +42,8 @@ static const member ROWS[] = {
 static const member SUMMARY[] = {
     ALL(TEXT, origin, "1", "where it was measured"),
     ALL(COUNT, n_windows, "1", "windows run every way"),
-    ALL(NUMBER, way, "m", "ice in each; infinite: the campaign's own windows"),
+    ALL(NUMBER, way, "m", "ice in each, in the mean; infinite: the campaign's own windows"),
+    ALL(NUMBER, seconds, "s", "time of each"),
     ALL(COUNT, point, "1", "governing measuring point, from 1"),
     ALL(NUMBER, percentile, "1", "percentile, 0 to 100"),
     ALL(NUMBER, confidence, "1", "of the intervals"),

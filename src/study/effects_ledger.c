@@ -16,9 +16,13 @@
  * 1 %) is never most of it, and windows become what a design asks for as the budget grows. */
 static const struct size {
     size_t n;
-    double way; /* [m] */
-} SIZES[] = {{32, 60}, {64, 120}, {96, 240}, {128, 300}, {192, 360}, {256, 480}, {320, 540}, {384, 600}, {512, 600}, {768, 720}, {1024, 960}, {2048, 1440}, {4096, 1920}};
-enum { N_SIZES = sizeof SIZES / sizeof SIZES[0], N_PILOT = 32 };
+    double way; /* mean [m] */
+} SIZES[] = {{32, 60},   {48, 120},  {64, 240},   {96, 360},   {128, 480},  {160, 600},   {192, 720},
+           {256, 960}, {320, 1200}, {384, 1440}, {512, 1920}, {768, 2880}, {1024, 3840}, {2048, 7680}};
+enum { N_SIZES = sizeof SIZES / sizeof SIZES[0], N_PILOT = 32, N_SPEEDS = 256 };
+
+/* A point is read with this width [deg]. */
+static const double WIDTH = 5;
 
 /* Force evaluations that a core of 2020 does in a second in short windows (100 of 600 s of the Raahe campaign: 8.0e6; thin ice a third of it), and what an arm costs over
  * the campaign's own set: without drag floes stay, twice the work. Both only aim. */
@@ -29,6 +33,8 @@ typedef struct run {
     const fw_effects_options *o;
     fw_effects_ledger        *out;
     fw_effects_plan           plan;
+    double                    speed; /* mean of the campaign's first N_SPEEDS ids [m/s] */
+    double                   *ring; /* (n_arcs), owned */
     size_t                    n_ways, *ways; /* arms that are run, the campaign's own at both ends; owned */
     double                    squares;       /* of the differences of processor time between the two runs of the campaign's own set */
 } run;
@@ -45,14 +51,25 @@ static void say(const run *r, const char *fmt, ...)
     r->o->say(r->o->say_self, text);
 }
 
-/* Window i of `way` metres under one arm's model. Its scenario is that campaign's too: an effect brings numbers of its own (the wind's speed) from
+static void take_speed(run *r)
+{
+    for (uint64_t id = 0; id < N_SPEEDS; id++) {
+        fw_scenario sc;
+        r->o->scenario(r->c, id, &sc);
+        r->speed += fmax(sc.speed, FW_SLOWEST) / N_SPEEDS;
+    }
+}
+
+static double seconds_of(const run *r, double way) { return fmin(r->c->model.window, way / r->speed); }
+
+/* Window i, so short, under one arm's model. Its scenario is that campaign's too: an effect brings numbers of its own (the wind's speed) from
  * streams of their own, and what was there before stays as it is. */
-static fw_status run_window(const run *r, const fw_campaign *c, size_t i, double way, fw_record *out, fw_msg *m)
+static fw_status run_window(const run *r, const fw_campaign *c, size_t i, double seconds, fw_record *out, fw_msg *m)
 {
     fw_scenario sc;
     fw_model    own = c->model;
     r->o->scenario(c, i, &sc);
-    own.window = fmin(own.window, way / fmax(sc.speed, FW_SLOWEST));
+    own.window = seconds;
     return fw_realise(&own, &sc, r->o->tick, out, m);
 }
 
@@ -68,7 +85,7 @@ static fw_status choose_size(run *r, fw_msg *m)
     say(r, "pilot");
     for (size_t i = 0; i < n_pilot; i++) {
         fw_record record;
-        FW_TRY(run_window(r, r->c, i, is_whole ? INFINITY : SIZES[0].way, &record, m));
+        FW_TRY(run_window(r, r->c, i, seconds_of(r, is_whole ? INFINITY : SIZES[0].way), &record, m));
         evaluations += record.force_evaluations;
         way += (record.window + record.warm_up) * fmax(record.speed, FW_SLOWEST);
         fw_record_free(&record);
@@ -94,13 +111,18 @@ static fw_status keep(fw_effects_arm *arm, size_t i, const fw_record *record, fw
     return fw_depth_add(&arm->depth, record, m);
 }
 
-/* Wear of the short window as that of the campaign's. */
-static void lengthen(const run *r, fw_record *record)
+/* The load of the first law as a point reads it, a moving mean over WIDTH, and of the short window as of the campaign's. The other rings are not asked. */
+static void prepare(const run *r, fw_record *record)
 {
-    double times = r->c->model.window / record->window;
-    size_t n = fw_record_n_rings(record->n_arcs, record->n_laws);
-    if (record->status != FW_OK || times == 1) return;
-    for (size_t k = 0; k < n; k++) record->rings[k] *= times;
+    if (record->status != FW_OK) return;
+    size_t  n = record->n_arcs, half = (size_t)(0.5 * WIDTH * (double)n / 360);
+    double *load = record->rings + n; /* behind the path (record.h) */
+    double  times = r->c->model.window / record->window / (double)(2 * half + 1);
+    memcpy(r->ring, load, n * sizeof *load);
+    for (size_t k = 0; k < n; k++) {
+        load[k] = 0;
+        for (size_t j = 0; j <= 2 * half; j++) load[k] += times * r->ring[(k + n + j - half) % n];
+    }
 }
 
 /* The campaign's own set is run first and last (or last and first): only the processor's time may differ. */
@@ -129,8 +151,8 @@ static fw_status run_ways(run *r, size_t i, fw_msg *m)
         size_t          way = i % 2 ? r->n_ways - 1 - step : step;
         fw_effects_arm *arm = &r->plan.arms[r->ways[way]];
         fw_record       record;
-        FW_TRY(run_window(r, &arm->campaign, i, r->out->way, &record, m));
-        lengthen(r, &record);
+        FW_TRY(run_window(r, &arm->campaign, i, r->out->seconds, &record, m));
+        prepare(r, &record);
         fw_status s = FW_OK;
         if (r->ways[way] == 0) {
             double load = 0;
@@ -194,12 +216,15 @@ static fw_status make(run *r, fw_msg *m)
     for (size_t k = 0; k < r->plan.n_arms; k++)
         if (!r->plan.arms[k].is_read) r->ways[r->n_ways++] = k;
     r->ways[r->n_ways++] = 0;
+    FW_TRY(fw_alloc(&r->ring, c->model.n_arcs, sizeof *r->ring, "a ring of arcs", m));
+    take_speed(r);
     FW_TRY(choose_size(r, m));
+    l->seconds = seconds_of(r, l->way);
     FW_TRY(run_all(r, m));
     share_costs(r);
     FW_TRY(fw_effects_compare(l, &r->plan, c, m));
-    if (isfinite(l->way))
-        snprintf(l->origin, sizeof l->origin, "on this campaign, %zu windows of %g m of ice", l->n_windows, l->way);
+    if (l->seconds < c->model.window)
+        snprintf(l->origin, sizeof l->origin, "on this campaign, %zu windows of %.3g m of ice in the mean", l->n_windows, l->way);
     else
         snprintf(l->origin, sizeof l->origin, "on this campaign, %zu of its windows", l->n_windows);
     return FW_OK;
@@ -217,6 +242,7 @@ fw_status fw_effects_ledger_make(fw_effects_ledger *out, const fw_campaign *c, c
     fw_status s = make(&r, m);
     fw_effects_plan_free(&r.plan);
     free(r.ways);
+    free(r.ring);
     out->cpu_s_study = fw_cpu_seconds() - start;
     if (s != FW_OK) memset(out, 0, sizeof *out);
     return s;

@@ -33,7 +33,7 @@ static void fast(const fw_campaign *c, uint64_t id, fw_scenario *out)
 static void fast_and_slow(const fw_campaign *c, uint64_t id, fw_scenario *out)
 {
     fast(c, id, out);
-    out->speed = id % 2 ? 2 : 0.1; /* 90 m in a quarter of an hour: all of it is run */
+    out->speed = id % 2 ? 2 : 0.1;
 }
 
 static void thin(const fw_campaign *c, uint64_t id, fw_scenario *out)
@@ -177,7 +177,7 @@ static void a_single_hit(void **state)
     }
 }
 
-/* A slow window is run whole and a fast one stands for its quarter of an hour: the mean is that of whole windows, within scatter. */
+/* Short windows stand for whole ones: the mean is the same, within scatter, and the work is not. */
 static void short_windows_stand_for_whole_ones(void **state)
 {
     (void)state;
