@@ -96,8 +96,8 @@ typedef struct fw_box {
     double x0, x1, y0, y1;
 } fw_box;
 fw_box    fw_kernel_needs_ice(const fw_kernel *k, const fw_world *w);
-/* A floe that no longer moves against the ice around it: velocity through the water where the air's drag and the water's balance. */
-void      fw_kernel_free_drift(const fw_setup *s, const fw_body *b, double x, double y, double *vx, double *vy);
+/* Velocity of a floe that nothing has touched: of the water far from the structure, and through it where the air's drag and the water's balance. */
+void      fw_kernel_free_drift(const fw_setup *s, const fw_body *b, double *vx, double *vy);
 
 /* An ice floe: the mass that its velocity moves [kg], added mass included, and a body at rest in the origin with all that follows from its
  * size. */

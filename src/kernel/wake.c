@@ -32,9 +32,11 @@ fw_body fw_kernel_floe(const fw_setup *s, double radius, double thickness)
                      .spin_drag = fw_has_spin_drag(s) ? skin : 0};
 }
 
-void fw_kernel_free_drift(const fw_setup *s, const fw_body *b, double x, double y, double *vx, double *vy)
+/* Not the deflected water's velocity where it is: a quadratic drag is too weak to take a floe along with flow that gives way by a hundredth. At 10 radii
+ * floes lag by 1.4 to 2.4 % of the current, and those that were given the water's velocity there missed the structure: 1.2 % of the load. */
+void fw_kernel_free_drift(const fw_setup *s, const fw_body *b, double *vx, double *vy)
 {
-    fw_water_at(s, x, y, vx, vy);
+    *vx = s->flow.ux, *vy = s->flow.uy;
     if (!fw_has_wind(s)) return;
     double rx = s->flow.wind_x - *vx, ry = s->flow.wind_y - *vy, speed = fw_length(rx, ry);
     double share = speed > 0 ? fw_wind_free_drift(b->air, b->drag, speed) / speed : 0;
@@ -46,10 +48,7 @@ fw_status fw_wake(const fw_setup *s, fw_world *w, size_t block, size_t row, fw_m
     fw_block *b = &w->blocks[block];
     fw_body   body = fw_kernel_floe(s, b->radius[row], b->thickness[row]);
     body.x = b->x[row] + w->drift_x, body.y = b->y[row] + w->drift_y;
-    if (fw_has_wind(s) || fw_has_deflection(s))
-        fw_kernel_free_drift(s, &body, body.x, body.y, &body.vx, &body.vy);
-    else
-        body.vx = s->flow.ice_x, body.vy = s->flow.ice_y;
+    fw_kernel_free_drift(s, &body, &body.vx, &body.vy);
     body.name = b->first_name + row;
     b->is_taken[row] = true;
     b->n_left--;

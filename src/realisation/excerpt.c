@@ -37,7 +37,7 @@ static fw_status gather(const fw_window_run *r, const fw_strip *by, fw_scene *to
                 continue;
             fw_body f = fw_kernel_floe(&r->setup, b->radius[i], b->thickness[i]);
             f.x = x, f.y = y;
-            fw_kernel_free_drift(&r->setup, &f, x, y, &f.vx, &f.vy);
+            fw_kernel_free_drift(&r->setup, &f, &f.vx, &f.vy);
             FW_TRY(add_floe(to, &capacity, turned(by, &f), m));
         }
     }

@@ -10,8 +10,12 @@ static const double TWO_PI = 6.283185307179586476925286766559;
 /* Change of the current from one segment to the next, over its speed and the accuracy. The error is that of the midpoint rule: a tenth of a
  * tide's period in 60 segments is right to 5e-4 of a change of a tenth. */
 static const double TURN = 0.5;
-/* The structure gives way to water up to here: 1 % of the current is left to deflect. In radii of the structure. */
-static const double DEFLECTED = 10;
+/* Floes feel the deflected flow up to here, in radii of the structure at an accuracy of 1 %; what is left of it goes with the square of the distance.
+ * Load against 40 radii, 400 windows of 20 minutes on the same ice, 1 m/s [%]:    5               7               10              20 radii
+ *   10 % ice                                                           0.69 +- 0.10    0.30 +- 0.07    0.13 +- 0.05    0.02 +- 0.03
+ *   40 % ice                                                           0.62 +- 0.41                    0.31 +- 0.26    0.19 +- 0.23
+ * So it goes with the cube root of the accuracy: 22 radii at 0.1 %. A window takes 1.6 times as long as without at 10 radii, 4 times at 40. */
+static const double DEFLECTED = 10, DEFLECTED_FOR = 0.01;
 /* In the wind floes drift apart: those within this way upstream are awake, unless on that way they come apart by less than this share of the
  * mean diameter. */
 static const double AWAKE_WAY = 100, APART = 0.01;
@@ -95,7 +99,7 @@ fw_status fw_weather_init(fw_weather *w, fw_setup *set, const fw_model *model, c
         double apart = spread * through * AWAKE_WAY / sc->speed;
         set->wake_upstream = apart > APART * diameter ? AWAKE_WAY : 0;
     }
-    if (set->has_deflection && mix >= 0) set->wake_radius = DEFLECTED * model->structure_radius;
+    if (set->has_deflection && mix >= 0) set->wake_radius = DEFLECTED * cbrt(DEFLECTED_FOR / model->accuracy) * model->structure_radius;
     set->flow = fw_weather_flow(w, 0);
     w->fastest = w->tide ? fmax(fabs(sc->speed) * largest_factor(w->tide), FW_SLOWEST) : fabs(sc->speed);
     w->fastest += w->drift * fmax(0, hypot(w->wind_x, w->wind_y) - w->fastest);
