@@ -76,12 +76,13 @@ void fw_accuracy_setup(fw_setup *s, const fw_model *m, double speed, double velo
     bool has_own = (m->effects & FW_EFFECT_ICE_ON_ICE) != 0, has_skin = (m->effects & FW_EFFECT_SKIN_DRAG) != 0;
     bool is_crush = (m->effects & FW_EFFECT_CRUSH_CONTACT) != 0;
     bool has_friction = (m->effects & FW_EFFECT_FRICTION) != 0, has_drag = (m->effects & FW_EFFECT_FORM_DRAG) != 0;
+    double ct = has_friction ? m->slip_damping_ratio : 0; /* over c; beside a friction of 0 it would still be in the rounding */
     *s = (fw_setup){
         .structure_radius = m->structure_radius,
         .flow = {.ux = speed, .ice_x = speed},
-        .contact = {m->stiffness, m->damping_ratio, has_friction ? m->friction : 0, m->slip_damping_ratio},
+        .contact = {m->stiffness, m->damping_ratio, has_friction ? m->friction : 0, ct},
         .floe_contact = {has_own ? m->floe_stiffness : m->stiffness, m->damping_ratio,
-                         !has_friction ? 0 : has_own ? m->floe_friction : m->friction, m->slip_damping_ratio},
+                         !has_friction ? 0 : has_own ? m->floe_friction : m->friction, ct},
         .has_floe_contact = (m->effects & FW_EFFECT_FLOE_CONTACT) != 0,
         .has_drag = has_drag || has_skin,
         .has_rotation = (m->effects & FW_EFFECT_ROTATION) != 0,
