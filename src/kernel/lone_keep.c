@@ -69,6 +69,7 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
     bool                wears = L->presses && b->wear->is_open;
     bool                goes_on = p->wear_until == c->t0 && p->since_touch > 0;
     double              angle = !wears ? 0 : goes_on ? p->wear_angle : fw_ring_angle(m->y0[FW_X], m->y0[FW_Y]);
+    double              kept_up = m->inertia > 0 ? 0 : m->radius * m->y0[FW_SPIN]; /* rim of a locked floe: what keeps it up works against friction */
     fw_wear_interval    iv = {.radius = m->radius, .thickness = body->thickness, .n_stages = PIECE};
     fw_lone_state       y[PIECE];
     decay               w = {1, 0, 1};
@@ -96,6 +97,7 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
             double normal = fw_larger(0, y[j].normal);
             double rub = !L->rubs ? 0 : L->slides != 0 ? -L->slides * p->mu * normal : -p->law.ct * y[j].slip;
             dashpot += weight * p->law.c * y[j].rate * y[j].rate, friction -= weight * rub * y[j].slip;
+            drag_work += weight * rub * kept_up * m->own_inv_mass;
             l->peak_force = fw_larger(l->peak_force, normal);
             if (y[j].depth > 0) load += weight * normal * fabs(y[j].slip) / sqrt(y[j].depth);
             iv.normal[j] = y[j].normal, iv.slip[j] = y[j].slip, iv.overlap[j] = y[j].depth;
