@@ -368,7 +368,7 @@ SCENES = {
     "S01_skin_alone": (40.0, {"form_drag": 0.0, "skin_drag": 0.0055}, [off(A, 1.0, spin=-0.7)]),
     "S02_skin_rough": (9.0, {"skin_drag": 0.2}, [off(B, 2.0, spin=0.5)]),
     "S03_skin_two": (9.0, {"skin_drag": 0.1}, SPUN),
-    "S04_skin_locked": (7.0, {"skin_drag": 0.1, "rotation": 0}, [off(A, 1.5)]),
+    "S04_skin_locked": (7.0, {"skin_drag": 0.1, "rotation": 0}, [off(A, 1.5, spin=0.4)]),
     "M01_added_mass": (8.0, {"added_mass": 1}, [off(A, 1.0)]),
     "M02_added_mass_large": (8.0, {"added_mass": 1}, [off(L, 3.0)]),
     "M03_added_mass_two": (9.0, {"added_mass": 1}, TWO),
