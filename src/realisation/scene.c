@@ -75,7 +75,7 @@ static fw_status check(const fw_scene *scene, const fw_frame_sink *frames, doubl
     FW_CHECK(scene->duration > 0 && isfinite(scene->duration), m, FW_E_ARG, "duration %g s: wanted more than 0",
              scene->duration);
     FW_CHECK(!frames || frames->interval > 0, m, FW_E_ARG, "frame interval must be positive");
-    *fastest = fabs(scene->speed);
+    *fastest = 0; /* of the floes; the current's is the weather's to say */
     for (size_t i = 0; i < scene->n_floes; i++) {
         const fw_floe *f = &scene->floes[i];
         FW_CHECK(isfinite(f->x) && isfinite(f->y) && isfinite(f->vx) && isfinite(f->vy) && isfinite(f->spin) &&
@@ -90,7 +90,6 @@ static fw_status check(const fw_scene *scene, const fw_frame_sink *frames, doubl
             double         far = 0.5 * fmax(a->diameter, b->diameter), dx = a->x - b->x, dy = a->y - b->y;
             FW_CHECK(dx * dx + dy * dy > far * far, m, FW_E_ARG, "floes %zu and %zu overlap by a whole radius at the start", k + 1, i + 1);
         }
-    if (!(*fastest > 0)) *fastest = 1e-3; /* nothing moves: any scale will do */
     return FW_OK;
 }
 
@@ -130,6 +129,7 @@ static fw_status run_once(const fw_scene *scene, const fw_model *model, double f
     fw_scenario sc = {.speed = scene->speed, .wind_speed = scene->wind_speed, .wind_angle = scene->wind_angle, .tide_phase = scene->tide_phase};
     FW_TRY(fw_weather_init(&weather, &setup, model, &sc, 0, scene->duration, -1, m));
     setup.velocity_scale = fmax(fastest, weather.fastest);
+    if (!(setup.velocity_scale > 0)) setup.velocity_scale = 1e-3; /* nothing moves: any scale will do */
     fw_status s = fw_wear_init(&wear, model->structure_radius, model->n_arcs, model->n_laws, model->laws, m);
     if (s == FW_OK) s = fw_world_create(&w, model->structure_radius, m);
     if (s == FW_OK) s = fw_kernel_create(&k, &setup, m);

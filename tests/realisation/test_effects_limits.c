@@ -122,6 +122,11 @@ static void neutral_to_the_bit(void **state)
     on.model.tide.rows = same, on.model.tide.n_rows = 2;
     same_bits(&plain, &on);
     on = scene(g);
+    on.model.effects |= FW_EFFECT_TIDE; /* half of twice as much */
+    same[0].factor = same[1].factor = 0.5, on.speed = 2 * SPEED;
+    on.model.tide.rows = same, on.model.tide.n_rows = 2;
+    same_bits(&plain, &on);
+    on = scene(g);
     on.model.effects |= FW_EFFECT_ICE_ON_ICE; /* its defaults are the structure's */
     same_bits(&plain, &on);
     on = scene(g);
