@@ -30,6 +30,20 @@ static const char campaign[] = "name: small\n"
                                "precision: {quantity: P90, half_width: 0 %, max_realisations: 24}\n"
                                "seed: 3\n";
 
+/* All that makes a window's water, air and ice move otherwise; a tide that reverses within the window. */
+static const char drift[] = "name: drift\n"
+                            "ice:\n"
+                            "  temperature: -10 degC\n"
+                            "  thickness_mixes: [{probability: 1, classes: {0.5 m: 1, 0.9 m: 1}}]\n"
+                            "  concentration: 40 %\n"
+                            "current: {speed: {uniform: [0.3 m/s, 1.5 m/s]}, direction: 0 deg, tide: {period: 20 min, minor_ratio: -0.2}}\n"
+                            "wind: {speed: {uniform: [5 m/s, 20 m/s]}, angle: {uniform: [0 deg, 360 deg]}}\n"
+                            "water: {skin_drag: 0.0055, added_mass: on, deflected_flow: on}\n"
+                            "contact: {floe_stiffness: 1000 kN/m, floe_friction: 0.05}\n"
+                            "exposure: {window: 10 min, warm_up: 60 s}\n"
+                            "precision: {quantity: P90, half_width: 0 %, max_realisations: 8}\n"
+                            "seed: 4\n";
+
 static const char *path(const char *name)
 {
     static char     paths[4][512];
@@ -47,7 +61,9 @@ static int set_up(void **state)
     (void)state;
     fw_job_make_folder(folder, sizeof folder, "program");
     f = fopen(path("small.yaml"), "w");
-    return f && fputs(campaign, f) >= 0 && fclose(f) == 0 ? 0 : -1;
+    if (!f || fputs(campaign, f) < 0 || fclose(f) != 0) return -1;
+    f = fopen(path("drift.yaml"), "w");
+    return f && fputs(drift, f) >= 0 && fclose(f) == 0 ? 0 : -1;
 }
 
 static int tear_down(void **state)
@@ -77,6 +93,18 @@ static void test_same_bits_on_any_number_of_ranks(void **state)
     }
 }
 
+static void test_same_bits_with_every_further_effect(void **state)
+{
+    const char *const alone[] = {FLOEWEAR, "run", path("drift.yaml"), "-o", path("d0"), "--json", NULL};
+    const char *const two[] = {FLOEWEAR, "run", path("drift.yaml"), "-o", path("d2"), "--json", NULL};
+
+    (void)state;
+    assert_int_equal(fw_job_run(folder, "d0", 0, alone), 0);
+    assert_int_equal(fw_job_run(folder, "d2", 2, two), 0);
+    assert_true(fw_compare_results(path("d0.h5"), path("d2.h5"), 8, 360, 1));
+    assert_true(fw_compare_json(path("d0.out"), path("d2.out")));
+}
+
 static void test_bad_file_is_told_once(void **state)
 {
     const char *const line[] = {FLOEWEAR,    "run",   path("small.yaml"), "-o",
@@ -96,6 +124,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_same_bits_on_any_number_of_ranks),
+        cmocka_unit_test(test_same_bits_with_every_further_effect),
         cmocka_unit_test(test_bad_file_is_told_once),
     };
 
