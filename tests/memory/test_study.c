@@ -190,7 +190,7 @@ static void effects(void **state)
     w.campaign = made_up_campaign(w.bearings);
     fw_model_defaults(&w.campaign.model);
     w.campaign.model.window = 60, w.campaign.model.warm_up = 0, w.campaign.seed = 3;
-    inject_walk(&(inject_case){.name = "effects ledger", .run = switch_all, .end = end_switching, .self = &w});
+    inject_walk(&(inject_case){.name = "effects ledger", .run = switch_all, .end = end_switching, .self = &w, .may_go_on = true});
 }
 
 /* ---- statistics ---- */
