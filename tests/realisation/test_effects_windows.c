@@ -1,0 +1,174 @@
+/* Windows with wind, deflected flow, tides, added mass and skin drag, alone and together: none fails, books close, records repeat to the bit. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "check.h"
+#include "floewear/realisation.h"
+
+static const double PI = 3.14159265358979323846;
+enum { N_WINDOWS = 6 };
+
+typedef struct kind {
+    const char *name;
+    uint32_t    effects;
+    double      wind_angle;           /* [deg] */
+    double      period, minor, phase; /* [s], [-], [rad] in the window's middle; phase < 0: another one in each window */
+} kind;
+
+static const double M2 = 12.42 * 3600;
+static const kind   KINDS[] = {
+    {"wind along", FW_EFFECT_WIND, 0, 0, 0, 0},
+    {"wind across", FW_EFFECT_WIND, 90, 0, 0, 0},
+    {"wind against", FW_EFFECT_WIND, 180, 0, 0, 0},
+    {"deflected flow", FW_EFFECT_DEFLECTED_FLOW, 0, 0, 0, 0},
+    {"tide of 12.42 h", FW_EFFECT_TIDE, 0, M2, 0.3, -1},
+    {"tide that reverses", FW_EFFECT_TIDE, 0, 2400, 0.1, 0.5},
+    {"to and fro", FW_EFFECT_TIDE, 0, 2400, 0, 0.5},
+    {"added mass, skin drag", FW_EFFECT_ADDED_MASS | FW_EFFECT_SKIN_DRAG, 0, 0, 0, 0},
+    {"all, 12.42 h", 0xf0 | FW_EFFECT_DEFLECTED_FLOW, 60, M2, 0.3, -1},
+    {"all, reversing", 0xf0 | FW_EFFECT_DEFLECTED_FLOW, 60, 2400, 0.1, 0.5},
+};
+
+static fw_model model(double minutes)
+{
+    fw_model m;
+    fw_model_defaults(&m);
+    m.window = 60 * minutes;
+    return m;
+}
+
+static double load(const fw_record *r)
+{
+    double sum = 0;
+    for (size_t k = 0; k < r->n_arcs; k++) sum += fw_record_load(r, 0, FW_RING_LOAD)[k];
+    return sum;
+}
+
+static fw_record sound(const fw_model *m, const fw_scenario *sc, const char *name)
+{
+    fw_record r;
+    fw_msg    msg = {""};
+    assert_int_equal(fw_realise(m, sc, NULL, &r, &msg), FW_OK);
+    if (r.status != FW_OK) fail_msg("%s, window %d: %s", name, (int)sc->id, r.cause);
+    assert_true(r.energy_relative <= 1e-10 && r.momentum_relative <= 1e-10 && r.wear_conservation <= 1e-10);
+    assert_true(r.energy_truncation <= m->accuracy);
+    return r;
+}
+
+static void none_fails(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < sizeof KINDS / sizeof KINDS[0]; k++) {
+        const kind *to = &KINDS[k];
+        double      sum = 0, tries = 0, cpu = 0;
+        for (int id = 1; id <= N_WINDOWS; id++) {
+            fw_model    m = model(20);
+            fw_scenario sc = {.seed = 7, .id = (uint64_t)id, .concentration = 0.4, .speed = 1};
+            m.effects |= to->effects;
+            if (to->effects & FW_EFFECT_WIND) sc.wind_speed = 15, sc.wind_angle = to->wind_angle * PI / 180;
+            if (to->period > 0) m.tide.period = to->period, m.tide.minor_ratio = to->minor;
+            sc.tide_phase = to->phase < 0 ? 2 * PI * fmod(0.618 * id, 1) : to->phase * PI;
+            fw_record r = sound(&m, &sc, to->name);
+            sum += load(&r), tries += r.tries, cpu += r.host_cpu_s;
+            fw_record_free(&r);
+        }
+        print_message("%-22s load %.3g MPa^m km  tries %g  CPU %.3f s a window\n", to->name, sum / N_WINDOWS, tries / N_WINDOWS, cpu / N_WINDOWS);
+        assert_true(sum > 0);
+    }
+}
+
+/* Wind that is faster with the ice than the water is, from anywhere; against a slow current ice comes from behind the structure. */
+static void strong_wind_over_slow_water(void **state)
+{
+    (void)state;
+    for (int id = 0; id < 4; id++) {
+        fw_model    m = model(20);
+        fw_scenario sc = {.seed = 5, .id = (uint64_t)id, .concentration = 0.4, .speed = 0.03, .wind_speed = 25, .wind_angle = 0.5 * PI * id};
+        m.effects |= FW_EFFECT_WIND, m.warm_up = 300;
+        fw_record r = sound(&m, &sc, "strong wind");
+        size_t    n = r.n_arcs;
+        double    all = load(&r), there = 0;
+        for (size_t k = n / 4; k < n - n / 4; k++) there += fw_record_load(&r, 0, FW_RING_LOAD)[k];
+        print_message("wind to %3d deg: load %.2g, %.0f %% on the downstream half\n", 90 * id, all, 100 * there / all);
+        assert_true(all > 0 && r.hits > 3);
+        assert_true(id == 0 ? there < 0.1 * all : id == 2 ? there > 0.9 * all : there > 0.1 * all && there < 0.9 * all);
+        fw_record_free(&r);
+    }
+}
+
+/* A course that falls to nothing does so whatever the segments are that it is cut into. 192 s make segments of 0.96 s, the 125th of which ends a
+ * rounding after the warm-up of 120 s. */
+static void the_current_goes_on_changing(void **state)
+{
+    (void)state;
+    double sum[3] = {0, 0, 0};
+    for (int k = 0; k < 3; k++)
+        for (int id = 0; id < 3; id++) {
+            fw_course_row rows[2] = {{0, 1, 0}, {191 + k, 0, 0}};
+            fw_model      m = model(10);
+            fw_scenario   sc = {.seed = 7, .id = (uint64_t)id, .concentration = 0.4, .speed = 1};
+            m.effects |= FW_EFFECT_TIDE, m.tide.rows = rows, m.tide.n_rows = 2;
+            fw_record r = sound(&m, &sc, "course to nothing");
+            sum[k] += load(&r);
+            fw_record_free(&r);
+        }
+    print_message("to nothing in 191, 192, 193 s: %.3g, %.3g, %.3g\n", sum[0], sum[1], sum[2]);
+    CHECK_RELATIVE(sum[1], sum[0], 0.3);
+    CHECK_RELATIVE(sum[1], sum[2], 0.3);
+}
+
+/* Turned by any angle the ice is another, but the law of it is the same: the ring's centre of load turns along. */
+static void load_turns_with_the_current(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        double turn = (37 + 100 * k) * PI / 180, x = 0, y = 0;
+        for (int id = 0; id < 6; id++) {
+            fw_course_row rows[2] = {{0, 1, turn}, {600, 1, turn}};
+            fw_model      m = model(10);
+            fw_scenario   sc = {.seed = 9, .id = (uint64_t)id, .concentration = 0.4, .speed = 1};
+            m.effects |= FW_EFFECT_TIDE, m.tide.rows = rows, m.tide.n_rows = 2;
+            fw_record r = sound(&m, &sc, "turned");
+            for (size_t i = 0; i < r.n_arcs; i++) {
+                double theta = ((double)i + 0.5) * 2 * PI / (double)r.n_arcs, q = fw_record_load(&r, 0, FW_RING_LOAD)[i];
+                x += q * cos(theta), y += q * sin(theta);
+            }
+            fw_record_free(&r);
+        }
+        double off = remainder(atan2(y, x) + turn, 2 * PI); /* theta is clockwise from the side that the current meets, turn anticlockwise */
+        print_message("current turned by %.0f deg: centre of load %.1f deg off\n", turn * 180 / PI, off * 180 / PI);
+        CHECK_NEAR(off, 0, 12 * PI / 180);
+    }
+}
+
+static void records_repeat(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < 2; k++) {
+        unsigned char *bytes[2];
+        size_t         size = 0;
+        for (int n = 0; n < 2; n++) {
+            fw_model    m = model(10);
+            fw_scenario sc = {.seed = 11, .id = 3, .concentration = 0.4, .speed = 1, .wind_speed = 15, .wind_angle = 1, .tide_phase = 0.5 * PI};
+            m.effects |= 0xf0 | FW_EFFECT_DEFLECTED_FLOW;
+            m.tide.period = k ? M2 : 1200, m.tide.minor_ratio = -0.2;
+            fw_record r = sound(&m, &sc, "repeated");
+            r.host_cpu_s = 0;
+            size = fw_record_packed_size(r.n_arcs, r.n_laws);
+            bytes[n] = malloc(size);
+            fw_record_pack(&r, bytes[n]);
+            fw_record_free(&r);
+        }
+        assert_memory_equal(bytes[0], bytes[1], size);
+        free(bytes[0]);
+        free(bytes[1]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(none_fails), cmocka_unit_test(strong_wind_over_slow_water),
+                                       cmocka_unit_test(the_current_goes_on_changing), cmocka_unit_test(load_turns_with_the_current),
+                                       cmocka_unit_test(records_repeat)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
