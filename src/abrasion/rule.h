@@ -48,9 +48,9 @@ typedef struct fw_wear_interval {
     double overlap[FW_WEAR_STAGES];
     double radius, thickness;      /* of the floe [m] */
     /* Ice that crushes: depth and rate are those of the deepest overlap at the place, which the chord b follows; normal is the pressure N / (b h) itself,
-     * with its sign [Pa]. While it crushes (is_push) that is push_pressure (b h)^-push_exponent, and normal says only that there is a force. */
-    bool   is_crushed, is_push;
-    double push_pressure, push_exponent;
+     * with its sign [Pa]. While it crushes (is_push) that is `crush` of b h, and normal says only that there is a force. */
+    bool            is_crushed, is_push;
+    fw_pressure_law crush;
 } fw_wear_interval;
 
 /* Node q stands for the part [from, to] of the interval. With breadth = chord / lift and p = force / (breadth thickness):

@@ -12,6 +12,7 @@
 #include "abrasion/wear.h"
 #include "geometry/lens.h"
 #include "geometry/ring.h"
+#include "physics/crush.h"
 
 /* Neighbouring nodes share a patch as long as its edges move less than this many arcs. What a patch of several nodes puts wrong
  * grows like the square: over many hits 1e-5 of the load in the front 150 degrees, 2e-4 of an arc's load. */
@@ -66,7 +67,7 @@ static inline double pressure(const fw_wear *w, const fw_wear_interval *iv, doub
 {
     double area = chord * iv->thickness;
     if (!iv->is_crushed) return normal / area;
-    double p = !iv->is_push ? normal : iv->push_exponent == 0 ? iv->push_pressure : iv->push_pressure * pow(area, -iv->push_exponent);
+    double p = iv->is_push ? fw_crush_pressure(&iv->crush, area) : normal;
     if (!FW_WEAR_IS_LIMITED) return p;
     double most = area > 0 ? fw_limit_force(&w->quadrature.limit, area) / area : INFINITY;
     return p < most ? p : most;

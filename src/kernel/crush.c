@@ -70,14 +70,15 @@ double fw_rim_deepest(const fw_rim *r, double place, double *slope)
 {
     long   n = (long)r->n, k = (long)floor(place * ((double)n / TWO_PI)) % n;
     size_t i = (size_t)(k < 0 ? k + n : k), j = i + 1 < r->n ? i + 1 : 0;
+    bool   is_known = false;
     const fw_imprint *known[] = {&r->node[i], &r->node[j], &r->own};
-    double            D = 0, turn;
+    double            D = 1e-12 * r->radius, turn; /* less is nothing */
     *slope = 0;
     for (int q = 0; q < 3; q++) {
         double at = fw_rim_imprint(r, known[q], place, &turn);
-        if (at > D) D = at, *slope = turn;
+        if (at > D) D = at, *slope = turn, is_known = true;
     }
-    return D;
+    return is_known ? D : 0;
 }
 
 void fw_rim_press(fw_rim *r, fw_imprint own)
@@ -185,13 +186,14 @@ static double push_to(const fw_rim *r, double D, double A, double B)
 {
     double low = sqrt(D), high = sqrt(A), x = high, b;
     for (int n = 0; n < MAX_NEWTON; n++) {
-        double F = fw_rim_force(r, x * x, &b), g = x * x + B * F - A, next = x - g / (2 * x + B * (1 - r->law.exponent) * F / x);
+        double F = fw_rim_force(r, x * x, &b), g = x * x + B * F - A, power = b * r->thickness > FW_CRUSH_LEAST_AREA ? 1 - r->law.exponent : 1;
+        double next = x - g / (2 * x + B * power * F / x);
         if (g > 0)
             high = x;
         else
             low = x;
         if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-        bool is_done = fabs(next - x) <= 1e-15 * x;
+        bool is_done = fabs(next - x) <= 1e-8 * x; /* the one that follows is exact */
         x = next;
         if (is_done) break;
     }
@@ -202,7 +204,7 @@ static double push_to(const fw_rim *r, double D, double A, double B)
 static double recede_to(fw_rim *r, size_t s, double A, double B, double low, double high, double rate0, double per_depth)
 {
     double f_low = low + B * signed_force(r, s, low, rate0 + low * per_depth) - A, f_high = high + B * signed_force(r, s, high, rate0 + high * per_depth) - A;
-    for (int n = 0; n < MAX_NEWTON && fabs(high - low) > 1e-15 * high && f_high != 0; n++) {
+    for (int n = 0; n < MAX_NEWTON && fabs(high - low) > 1e-13 * high && f_high != 0; n++) {
         double x = high - f_high * (high - low) / (f_high - f_low), f = x + B * signed_force(r, s, x, rate0 + x * per_depth) - A;
         if ((f > 0) == (f_high > 0))
             f_low *= 0.5;
@@ -218,8 +220,8 @@ static double solve_normal(fw_rim *r, size_t s, double A, double B, double rate0
 {
     double D = r->deepest[s], F = r->yield[s] = r->fresh_yield;
     r->chord[s] = r->fresh_chord;
-    if (D > 0 || A <= 0) {
-        if (!(D > 0)) return 0;
+    if (!(D > 0) && !(A > 0)) return 0;
+    if (D > 0) {
         double S = r->kappa * F / D, c = fw_rim_damping(r, D, F), N0 = F - S * D + c * rate0, K = S + c * per_depth;
         double N = clamp((K * A + N0) / (1 + B * K), F); /* N = N0 + K d */
         if (A - B * N <= D && (N > 0 || A <= D)) return N;

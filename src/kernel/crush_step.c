@@ -12,10 +12,6 @@ static const double QUASI_STATIC = 6; /* step in m / c: 3 in 1/w, as in books.c 
 /* A kink is met when what is wrong behind it is more than this share of the tolerance of velocity. */
 static const double MATTERS = 0.1;
 
-/* Of the tolerances that springs are given: the floe on the structure alone, others keep theirs. Errors at 1 % of nine hits against a tenth of the finest
- * tolerances, along the contact: 18 % and 0.1 to 0.7 % with all of them, at most 0.7 % with a fifth or a tenth (3792 and 4485 evaluations against 2952). */
-static const double STRICTER = 0.1;
-
 /* The tried step as cubics in its share u: overlap, and the place under the wall. */
 typedef struct course {
     const fw_rim *r;
@@ -85,7 +81,7 @@ double fw_crush_turn(const fw_cluster *c, const fw_pair *p, const fw_setup *set,
     const fw_rim *r = p->rim;
     size_t        last = set->method->n_stages - 1;
     course        o = course_of(c, p, last, h);
-    double        most = MATTERS * STRICTER * set->tolerance * set->velocity_scale * r->mass / h, at[N_KINKS], was[N_KINKS]; /* force x share of the step */
+    double        most = MATTERS * set->crush_share * set->tolerance * set->velocity_scale * r->mass / h, at[N_KINKS], was[N_KINKS]; /* force x share of the step */
     probe(&o, 0, was);
     double near = AT * r->radius;
     if (was[OVER] >= -near && p->rate[0] > 0) { /* a push: to its peak, where history is written */
@@ -134,7 +130,7 @@ double fw_crush_error(const fw_cluster *c, fw_pair *p, const fw_setup *set, doub
     }
     p->load_tried = load;
     double speed = fw_larger(fw_length(e[0], e[1]), a->radius * fabs(e[2])) / (set->tolerance * set->velocity_scale);
-    return fw_larger(speed, p->load + load > 0 ? wrong / (p->load + load) / set->wear_tolerance : 0) / STRICTER;
+    return fw_larger(speed, p->load + load > 0 ? wrong / (p->load + load) / set->wear_tolerance : 0) / set->crush_share;
 }
 
 /* --- books ------------------------------------------------------------------------------------------------------------ */
@@ -230,7 +226,7 @@ void fw_crush_interval(const fw_pair *p, size_t n_stages, fw_wear_interval *iv)
     const fw_rim *r = p->rim;
     size_t        last = n_stages - 1;
     iv->is_push = is_push_from_end_to_end(p, last) && p->rate[0] > 0 && p->normal[last] >= (1 - ROUNDING) * r->yield[last];
-    iv->push_pressure = r->law.pressure, iv->push_exponent = r->law.exponent;
+    iv->crush = r->law;
     for (size_t s = 0; s < n_stages; s++) {
         iv->normal[s] = iv->is_push ? 1 : r->chord[s] > 0 ? r->line[s] / (r->chord[s] * r->thickness) : 0;
         if (iv->is_push || (s != 0 && s != last)) continue;

@@ -41,6 +41,7 @@ typedef struct fw_setup {
     bool             is_from_pressure; /* k of springs from the pressure that crushes */
     fw_crush         crush;            /* unloading resolved; for either */
     double           crush_speed;      /* that k is as deep at [m/s] */
+    double           crush_share;      /* of the tolerances of velocity and wear below: for a floe on a structure that crushes it */
     /* numerics */
     bool             is_lone_exact; /* a lone floe on the structure by closed forms (lone.h) instead of the method */
     const fw_method *method;

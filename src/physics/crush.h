@@ -1,6 +1,6 @@
 /* Crushing of ice: what a nominal area b h carries while it crushes, and closed forms of one head-on push.
  *
- *   p = P0 (b h / 1 m2)^-q,  F = p b h = P0 (b h)^(1-q)            loading: b the chord of the overlap, h the thickness
+ *   p = P0 (b h / 1 m2)^-q,  F = p b h = P0 (b h)^(1-q)            loading: b the chord of the overlap, h the thickness; p below 0.01 m2 as there
  *   N = F(D) (1 - kappa (D - d) / D) + c d' >= 0,  d < D           on the flat that the deepest overlap D has left, c critical
  *
  * Shallow lens, b = 2 sqrt(2 R* d) with 1/R* = 1/R + 1/Rs (the exact lens is used where forces act; it is within 1 %):
@@ -15,6 +15,9 @@
 #define FW_PHYSICS_CRUSH_H
 
 #include "floewear/scenario.h"
+
+/* Pressure-area laws are fitted to areas of 0.01 m2 and more. On smaller ones p stays: carried on, p ~ A^-0.7 lets a floe of 10 t rest on 1e-12 m. */
+#define FW_CRUSH_LEAST_AREA 0.01 /* [m2] */
 
 /* Force that an area b h [m2] carries while it crushes [N], and its pressure [Pa]. */
 double fw_crush_force(const fw_pressure_law *p, double area);

@@ -260,7 +260,7 @@ static void crushing(void **state)
             fw_wear w;
             for (int i = 0; i < 1000000; i++) {
                 double x = (i + 0.5) * 1e-6, t = x * x * end, b = fw_lens_chord(v * t - 0.5 * g * t * t, R, 3.7), dt = 2 * x * 1e-6 * end;
-                double slide = 0.3 * (1 - 0.5 * t / end) * dt, rate = pow(P0 * pow(b * h, -Q[q]), m);
+                double slide = 0.3 * (1 - 0.5 * t / end) * dt, rate = pow(P0 * pow(fmax(0.01, b * h), -Q[q]), m);
                 along += rate * slide, wall += rate * b * slide, path += b * slide;
             }
             assert_int_equal(fw_wear_init(&w, 3.7, 360, 2, LAWS, NULL), FW_OK);
@@ -268,7 +268,7 @@ static void crushing(void **state)
             double t = 0, length = FIRST[c] * end;
             for (int step = 0; t < end * (1 - 1e-12); step++, t += length, length = fmin(4 * length, end - t)) {
                 fw_wear_interval iv = interval(length, t, R, h);
-                iv.is_crushed = iv.is_push = true, iv.push_pressure = P0, iv.push_exponent = Q[q];
+                iv.is_crushed = iv.is_push = true, iv.crush = (fw_pressure_law){P0, Q[q]};
                 for (int s = 0; s < 3; s++) {
                     double at = t + iv.at[s] * length;
                     iv.normal[s] = 1, iv.slip[s] = 0.3 * (1 - 0.5 * at / end);
@@ -277,8 +277,8 @@ static void crushing(void **state)
                 fw_wear_collect(&w, &iv);
             }
             fw_wear_finish(&w);
-            CHECK_RELATIVE(w.sums[0].along, along, Q[q] > 0 ? 2e-3 : 1e-6);
-            CHECK_RELATIVE(w.sums[0].x_wall, wall, Q[q] > 0 ? 1e-4 : 1e-6);
+            CHECK_RELATIVE(w.sums[0].along, along, Q[q] > 0 ? 5e-3 : 1e-6); /* the law has a corner at 0.01 m2 */
+            CHECK_RELATIVE(w.sums[0].x_wall, wall, Q[q] > 0 ? 1e-3 : 1e-6);
             double over = 0;
             for (int k = 0; k < 360; k++) over += w.path[k] * 2 * PI * 3.7 / 360;
             CHECK_RELATIVE(over, path, 1e-6);

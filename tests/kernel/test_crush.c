@@ -30,6 +30,7 @@ static fw_setup setup(bool has_flat, double speed)
                       .is_crush = true,
                       .crush = {.law = p, .unloading = fw_crush_unloading(&p, exp(-2)), .has_flat = has_flat},
                       .crush_speed = V,
+                      .crush_share = 0.1,
                       .method = FW_METHOD_ARK3,
                       .tolerance = 1e-5, .energy_tolerance = 0.01,
                       .velocity_scale = 2,

@@ -94,7 +94,7 @@ static void one_push(double q, double *deepest, double *restitution)
     /* energy: m u^2 / 2 falls by int F, F = P0 (g sqrt d)^(1-q); midpoint in sqrt d, to rest */
     double E = 0.5 * m * v * v, x = 0, dx = 1e-6;
     while (E > 0) {
-        double xm = x + 0.5 * dx, work = P0 * pow(g * xm, 1 - q) * 2 * xm * dx;
+        double xm = x + 0.5 * dx, work = P0 * pow(fmax(0.01, g * xm), -q) * g * xm * 2 * xm * dx;
         if (work > E) dx *= E / work, work = E;
         E -= work, x += dx;
         if (dx < 1e-12) break;
@@ -122,7 +122,8 @@ static void crushing(void **state)
         fw_pressure_law law = {1.1e6, q};
         one_push(q, &D, &e);
         CHECK_RELATIVE(fw_crush_depth(&law, 2209, 2, 0.934, 0.5), D, 1e-6);
-        CHECK_RELATIVE(e, exp(-2), 1e-4);
+        CHECK_RELATIVE(e, exp(-2), q > 0 ? 3e-3 : 1e-4); /* the work below 0.01 m2 is not that of the power law */
+        CHECK_RELATIVE(fw_crush_depth(&law, 2209 * 1e-12, 2, 0.934, 0.5), pow(2209e-12 * 4 / (8.0 / 3 * sqrt(2 * 0.934) * 1.1e6 * pow(0.01, -q) * 0.5), 2.0 / 3), 1e-12);
     }
     /* d_max = [m v^2 / ((8/3) sqrt(2R*) p h)]^(2/3), N_max = 2 p h sqrt(2R* d) by hand */
     double D = fw_crush_depth(&p, 2209, 2, 0.934, 0.5);

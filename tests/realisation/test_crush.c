@@ -70,7 +70,7 @@ static void reference_hits(void **state)
             CHECK_RELATIVE(r.record.peak_force, value(t, row, "N_peak"), 0.5 * a);
             CHECK_RELATIVE(r.record.normal_impulse, value(t, row, "J_N"), a);
             if (a < 0.1) {
-                CHECK_RELATIVE(r.path, value(t, row, "path"), 5 * a); /* half of it where next to nothing presses */
+                CHECK_RELATIVE(r.path, value(t, row, "path"), fmax(5 * a, 2e-3)); /* half of it where next to nothing presses */
                 CHECK_NEAR(r.floes[0].spin, value(t, row, "spin"), a);
                 CHECK_NEAR(orbit, value(t, row, "orbit"), 10 * a); /* where it is says when it has let go */
             }
@@ -81,8 +81,8 @@ static void reference_hits(void **state)
     free(t);
 }
 
-/* Order of the method (3) in the length of its steps, h ~ tolerance^(1/3), so the error of wear falls about as tolerance does: slope of log error against
- * log tolerance over three decades, median of the rows. Between 0.6 and 1.4: single errors cross zero. */
+/* Order: error control holds a step's error to the tolerance, ~ h^3, so there are tolerance^(-1/3) steps, and the error of a hit falls between tolerance^(2/3),
+ * where all of them add up, and tolerance. Slope of log error against log tolerance over three decades, median of the rows: single errors cross zero. */
 static void error_follows_tolerance(void **state)
 {
     (void)state;
@@ -113,7 +113,7 @@ static void error_follows_tolerance(void **state)
                 slope[i] = slope[k], slope[k] = swap;
             }
     print_message("error of wear ~ tolerance^%.2f (median; %.2f to %.2f)\n", slope[n / 2], slope[0], slope[n - 1]);
-    assert_true(slope[n / 2] > 0.6 && slope[n / 2] < 1.4);
+    assert_true(slope[n / 2] > 0.6 && slope[n / 2] < 1.2);
     free(t);
 }
 

@@ -35,7 +35,10 @@ class Hit:
         self.inertia, self.star, self.K = self.m * R * R / 2, R * RS / (R + RS), 0.5 * RHO_W * form_drag * D * h
         e = 1.5 - exponent / 2
         self.kappa = e / (2 * math.exp(-2))
-        deepest = (0.5 * self.m * speed**2 * e / (pressure * (2 * math.sqrt(2 * self.star) * h) ** (1 - exponent))) ** (1 / e)
+        g = 2 * math.sqrt(2 * self.star) * h
+        d0 = (0.01 / g) ** 2 if exponent else 0.0
+        work0 = 2 / 3 * pressure * 0.01 ** (1 - exponent) * d0
+        deepest = ((0.5 * self.m * speed**2 - work0) * e / (pressure * g ** (1 - exponent)) + d0**e) ** (1 / e)
         self.ct = 2 * self.m * speed / (math.e * deepest)  # of the critically damped spring that is as deep
         self.cr = self.ct * R * R
         self.depth, self.place = np.zeros(0), np.zeros(0)
@@ -45,7 +48,8 @@ class Hit:
         return math.sqrt(d * (2 * (R + RS) - d) * (2 * R - d) * (2 * RS - d)) / (R + RS - d) if d > 0 else 0.0
 
     def F(self, d):
-        return self.P0 * (self.chord(d) * self.h) ** (1 - self.q) if d > 0 else 0.0
+        area = self.chord(d) * self.h  # the law's pressure holds on below 0.01 m2
+        return self.P0 * max(area, 0.01) ** -self.q * area if d > 0 else 0.0
 
     def deepest(self, s):
         return max(0.0, float(np.max(self.depth - (s - self.place) ** 2 / (2 * self.star)))) if self.depth.size else 0.0
