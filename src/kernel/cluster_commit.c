@@ -81,11 +81,8 @@ fw_status fw_cluster_commit(fw_cluster *c, const fw_books *books, int32_t *opene
         for (int q = 0; q < 8; q++) m->y0[q] = m->y1[q], m->k[0][q] = m->k[last][q];
         b->x = m->y0[FW_X], b->y = m->y0[FW_Y], b->vx = m->y0[FW_VX], b->vy = m->y0[FW_VY], b->spin = m->y0[FW_SPIN];
         for (int q = 0; q < 3; q++) m->drag[0][q] = m->drag[last][q];
-        if (fw_is_crush(books->setup)) b->angle = m->y0[FW_TURN];
     }
-    if (fw_is_crush(books->setup))
-        for (size_t k = 0; k < c->n_pairs; k++)
-            if (fw_rim_of(&c->pairs[k])) fw_crush_commit(c, &c->pairs[k], last, h);
+    if (fw_is_crush(books->setup)) fw_crush_commit(c, books->world, last, h);
     FW_TRY(let_go(c, books, is_lone, opened, n_opened, msg));
     /* Accelerations are velocity differences over the step: after a sliver of one they are rounding noise. */
     if (h * c->omega < SLIVER) fw_stage_start(c, books);

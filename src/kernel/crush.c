@@ -149,7 +149,8 @@ void fw_crush_start(fw_pair *p)
 {
     fw_rim    *r = p->rim;
     fw_member *a = p->ma;
-    look(p, 0, place_of(p->nx, p->ny, a->y0[FW_TURN]));
+    r->place = place_of(p->nx, p->ny, a->y0[FW_TURN]);
+    look(p, 0, r->place);
     r->line[0] = signed_force(r, 0, p->depth[0], p->rate[0]);
     p->normal[0] = fw_larger(0, r->line[0]);
     p->friction[0] = fw_contact_friction(&p->law, p->normal[0], p->slip[0]);
@@ -171,14 +172,18 @@ static void twist(const fw_pair *p, double roll)
     a->V[0] -= along * p->ny, a->V[1] += along * p->nx, a->V[2] += roll * a->turn / a->radius;
 }
 
-void fw_crush_linearise(fw_pair *p, size_t s, double hg)
+void fw_crush_linearise(fw_cluster *c, size_t s, double hg)
 {
-    fw_rim          *r = p->rim;
-    const fw_member *a = p->ma;
-    look(p, s, place_of(p->nx, p->ny, a->r[FW_TURN] + hg * a->U[2]));
-    r->hg = hg, r->arm = r->lever[s] = 1 / (a->radius + r->structure_radius - p->depth_star);
-    r->roll = hg * r->moment[s - 1];
-    twist(p, r->roll);
+    for (size_t k = 0; k < c->n_pairs; k++) {
+        fw_pair         *p = &c->pairs[k];
+        fw_rim          *r = p->rim;
+        const fw_member *a = p->ma;
+        if (!r) continue;
+        look(p, s, place_of(p->nx, p->ny, a->r[FW_TURN] + hg * a->U[2]));
+        r->hg = hg, r->arm = r->lever[s] = 1 / (a->radius + r->structure_radius - p->depth_star);
+        r->roll = hg * r->moment[s - 1];
+        twist(p, r->roll);
+    }
 }
 
 /* d > D that crushes on: d = A - B F(d), in x = sqrt d next to a quadratic, x^2 + B F(x^2) - A = 0. */
@@ -283,11 +288,17 @@ double fw_crush_solve(fw_pair *p, size_t s)
     return fw_larger(fabs(dp) * wn, fw_larger(fabs(df) * ws, fabs(dm) * wr * R));
 }
 
-void fw_crush_end(fw_pair *p, size_t s, double inv)
+void fw_crush_end(fw_cluster *c, size_t s, double inv, bool is_settled)
 {
-    fw_rim          *r = p->rim;
-    const fw_member *a = p->ma;
-    r->moment[s] = r->roll * inv;
-    r->turning[s] = a->V[2] - (p->nx * a->V[1] - p->ny * a->V[0]) * r->arm;
-    r->line[s] = p->normal[s] > 0 ? p->normal[s] : fw_smaller(0, signed_force(r, s, p->depth[s], p->rate[s]));
+    for (size_t k = 0; k < c->n_pairs; k++) {
+        fw_pair *p = &c->pairs[k];
+        fw_rim  *r = p->rim;
+        if (!r) continue;
+        if (is_settled) fw_crush_solve(p, s);
+        const double *V = p->ma->V;
+        double        rate = -(p->nx * V[0] + p->ny * V[1]), depth = p->depth_star + r->hg * (rate - p->rate_star);
+        r->moment[s] = r->roll * inv;
+        r->turning[s] = V[2] - (p->nx * V[1] - p->ny * V[0]) * r->arm;
+        r->line[s] = p->push > 0 ? p->push * inv : fw_smaller(0, signed_force(r, s, depth, rate));
+    }
 }

@@ -48,6 +48,7 @@ typedef struct fw_rim {
     size_t n;            /* nodes, evenly round the rim */
     double width;        /* from node to node [m] */
     fw_imprint own;      /* last one of this contact */
+    double place;        /* under the wall at the last committed instant [rad] */
     double stored;       /* at the last committed instant [J] */
     /* the tried step, at the stages */
     double deepest[FW_MAX_STAGES], slope[FW_MAX_STAGES];  /* D before this step, dD/ds */
@@ -70,11 +71,12 @@ fw_status fw_crush_close(fw_pair *p, const fw_setup *s, fw_body *a, const fw_bod
 /* What is stored where the floe at y0 overlaps the wall by depth; the place is remembered as it is found [J]. */
 double fw_crush_find(fw_rim *r, const double *y0, double depth);
 
-/* stage.c: forces at t0, into k[0] of the floe; a stage; what it leaves. */
+/* stage.c: forces of a contact at t0, into k[0] of its floe; all such contacts of a stage, linearised as the others are; one of them solved as if there were no
+ * other, which returns the change of its velocities; what the stage leaves, after one more solution where others had a say. */
 void   fw_crush_start(fw_pair *p);
-void   fw_crush_linearise(fw_pair *p, size_t s, double hg);
-double fw_crush_solve(fw_pair *p, size_t s); /* one contact as if there were no other; returns the change of its velocities */
-void   fw_crush_end(fw_pair *p, size_t s, double inv);
+void   fw_crush_linearise(fw_cluster *c, size_t s, double hg);
+double fw_crush_solve(fw_pair *p, size_t s);
+void   fw_crush_end(fw_cluster *c, size_t s, double inv, bool is_settled);
 
 /* cluster.c: errors of the tried step, of the floe's velocity and of its wear over that of the touch so far, over what is tolerated; and where in the step the
  * law has its first kink that matters [s]; h: none */
@@ -85,7 +87,7 @@ double fw_crush_turn(const fw_cluster *c, const fw_pair *p, const fw_setup *s, d
 void fw_crush_weigh(fw_cluster *c, const fw_method *me, fw_pair *p, double h, fw_step_books *to);
 void fw_crush_interval(const fw_pair *p, size_t n_stages, fw_wear_interval *iv); /* its pressure and deepest overlap */
 
-/* cluster_commit.c: the imprint of a committed step, once the members stand at its end */
-void fw_crush_commit(fw_cluster *c, fw_pair *p, size_t last, double h);
+/* cluster_commit.c: the imprints of a committed step, once the members stand at its end; how far bodies have turned */
+void fw_crush_commit(fw_cluster *c, fw_world *w, size_t last, double h);
 
 #endif

@@ -29,7 +29,7 @@ static course course_of(const fw_cluster *c, const fw_pair *p, size_t last, doub
 {
     const fw_rim    *r = p->rim;
     const fw_member *a = &c->members[p->a];
-    course           o = {.r = r, .from = fw_rim_place(a->y0), .per_h = 1 / h};
+    course           o = {.r = r, .from = r->place, .per_h = 1 / h};
     cubic(o.d, p->depth[0], h * p->rate[0], p->depth[last], h * p->rate[last]);
     cubic(o.at, 0, -h * r->turning[0], fw_rim_between(o.from, fw_rim_place(a->y1)), -h * r->turning[last]);
     return o;
@@ -239,7 +239,7 @@ void fw_crush_interval(const fw_pair *p, size_t n_stages, fw_wear_interval *iv)
 
 /* --- memory ----------------------------------------------------------------------------------------------------------- */
 
-void fw_crush_commit(fw_cluster *c, fw_pair *p, size_t last, double h)
+static void leave_imprint(fw_cluster *c, fw_pair *p, size_t last, double h)
 {
     fw_rim *r = p->rim;
     course  o = course_of(c, p, last, h);
@@ -258,6 +258,14 @@ void fw_crush_commit(fw_cluster *c, fw_pair *p, size_t last, double h)
     }
     r->moment[0] = r->moment[last], r->hold[0] = r->hold[last], r->lever[0] = r->lever[last], r->turning[0] = r->turning[last], r->line[0] = r->line[last];
     /* what was written counts from here on */
-    r->deepest[0] = fw_rim_deepest(r, o.from + o.at[1] + o.at[2] + o.at[3], &r->slope[0]);
+    r->place = o.from + o.at[1] + o.at[2] + o.at[3];
+    r->deepest[0] = fw_rim_deepest(r, r->place, &r->slope[0]);
     r->yield[0] = fw_rim_force(r, fw_larger(r->deepest[0], p->depth[last]), &r->chord[0]);
+}
+
+void fw_crush_commit(fw_cluster *c, fw_world *w, size_t last, double h)
+{
+    for (size_t i = 0; i < c->n_members; i++) w->bodies[c->members[i].index].angle = c->members[i].y0[FW_TURN];
+    for (size_t k = 0; k < c->n_pairs; k++)
+        if (c->pairs[k].rim) leave_imprint(c, &c->pairs[k], last, h);
 }
