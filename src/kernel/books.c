@@ -38,7 +38,7 @@ static void shove(fw_member *m, double jx, double jy, double rub)
 /* What keeps a locked floe's spin up against friction works, too: R Ft w. Of an impulse of friction. */
 static double held(const fw_member *m, double rub) { return m->inertia > 0 ? 0 : rub * m->radius * m->y0[FW_SPIN]; }
 
-static void weigh_pair(fw_cluster *c, const fw_method *me, fw_pair *p, double h, fw_step_books *to)
+static inline __attribute__((always_inline)) void weigh_pair(fw_cluster *c, const fw_method *me, fw_pair *p, double h, fw_step_books *to)
 {
     fw_member *a = &c->members[p->a], *b = p->b == FW_WALL ? NULL : &c->members[p->b];
     size_t     last = me->n_stages - 1;
@@ -80,6 +80,17 @@ static void weigh_pair(fw_cluster *c, const fw_method *me, fw_pair *p, double h,
                                               : 0;
 }
 
+/* Where some contacts crush: a loop of its own, so that springs alone ask nothing. */
+static __attribute__((noinline)) void weigh_crushing(fw_cluster *c, const fw_method *me, double h, fw_step_books *to)
+{
+    for (size_t k = 0; k < c->n_pairs; k++) {
+        if (fw_rim_of(&c->pairs[k]))
+            fw_crush_weigh(c, me, &c->pairs[k], h, to);
+        else
+            weigh_pair(c, me, &c->pairs[k], h, to);
+    }
+}
+
 void fw_books_weigh(fw_cluster *c, const fw_setup *set, double h)
 {
     const fw_method *me = set->method;
@@ -99,13 +110,10 @@ void fw_books_weigh(fw_cluster *c, const fw_setup *set, double h)
     }
     if (fw_has_spin_drag(set)) fw_forces_weigh(c, set, h);
     c->is_weighed = true;
-    bool is_crush = fw_is_crush(set);
-    for (size_t k = 0; k < c->n_pairs; k++) {
-        if (is_crush && fw_rim_of(&c->pairs[k]))
-            fw_crush_weigh(c, me, &c->pairs[k], h, to);
-        else
-            weigh_pair(c, me, &c->pairs[k], h, to);
-    }
+    if (fw_is_crush(set))
+        weigh_crushing(c, me, h, to);
+    else
+        for (size_t k = 0; k < c->n_pairs; k++) weigh_pair(c, me, &c->pairs[k], h, to);
     for (size_t i = 0; i < c->n_members; i++) {
         const fw_member *m = &c->members[i];
         double           mass = m->mass, err = 0;

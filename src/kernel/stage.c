@@ -223,22 +223,22 @@ bool fw_stage_solve(fw_cluster *c, const fw_books *books, size_t s, double h)
 {
     const fw_setup *set = books->setup;
     double          hg = h * set->method->gamma, inv = 1 / hg;
-    bool            is_lone = c->n_pairs == 1;
+    bool            is_lone = c->n_pairs == 1, is_crush = fw_is_crush(set);
     /* A lone contact is solved by one sweep, so it may as well be solved well: what it leaves, error control pays for. */
     double          enough = (is_lone ? 0.02 : 1) * set->solver_share * set->tolerance * set->velocity_scale;
     if (s == 1) point_to_members(c, set);
     predict(c, set, s, h);
     linearise(c, s, hg);
-    if (fw_is_crush(set)) fw_crush_linearise(c, s, hg);
+    if (is_crush) fw_crush_linearise(c, s, hg);
     books->world->ledger.force_evaluations += (double)c->n_pairs;
     bool is_solved = false;
     for (int n = 0; n < MAX_SWEEPS && !is_solved; n++) {
-        double change = fw_is_crush(set) ? sweep_crushing(c, s) : sweep(c);
+        double change = is_crush ? sweep_crushing(c, s) : sweep(c);
         if (!is_lone && !(change < enough) && n % 4 != 3) continue;
         double drag = set->has_drag ? renew_drag(c, set, hg, enough) : 0;
         is_solved = !(drag > 0) && (change < enough || is_lone);
     }
-    if (fw_is_crush(set))
+    if (is_crush)
         fw_crush_end(c, s, inv, !is_lone);
     else if (!is_lone)
         settle_structure(c);
