@@ -64,6 +64,7 @@ static double bisect(const course *o, double low, double high, int kink)
     return high;
 }
 
+/* How far off a kink: between no force and full force of the line the nearer end counts. */
 static double largest_of(double was, const double at[N_KINKS], int kink)
 {
     return fw_larger(was, fw_smaller(fabs(at[kink]), kink == OVER ? INFINITY : fabs(at[OVER])));

@@ -4,6 +4,7 @@
  *   a floe in no contact  flies by the closed form of its drag until somebody touches it
  *   a cluster          floes joined by contacts: ESDIRK steps with error control, at its own pace
  *   a lone floe on the structure  is such a cluster, stepped by closed forms (lone.h)
+ *   a floe on a structure that crushes it  is stepped as the others, with a memory of its rim (crush.h)
  *   a touch            is located, because the force jumps there by c d': a step across the jump is first order
  *
  * Events are worked in the order of time (kernel.c); a cluster's step is tried ahead and cut when somebody comes in.

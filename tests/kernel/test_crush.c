@@ -221,6 +221,32 @@ static void comes_back_on_its_flat(void **state)
     end(&r);
 }
 
+/* A floe that spins while it is pushed leaves all of its way in its rim, however few steps the push takes: seen by a run that is stopped every
+ * 0.1 ms, known by the rim of one that is not. */
+static void a_push_that_turns(void **state)
+{
+    (void)state;
+    enum { N = 250 };
+    double deep[N], place[N], slope;
+    rig    fine = start(setup(true, 0), 0, 0), r = start(setup(true, 0), 0, 0);
+    fine.w->bodies[0].spin = r.w->bodies[0].spin = 15;
+    fine.w->energy_start = fw_world_energy(fine.w), r.w->energy_start = fw_world_energy(r.w);
+    for (int i = 0; i < N; i++) {
+        run(&fine, 0.1502 + 1e-4 * i);
+        const fw_body *b = &fine.w->bodies[0];
+        double         y[8] = {b->x, b->y, b->angle};
+        deep[i] = fw_world_overlap(fine.w, 0, FW_WALL), place[i] = fw_rim_place(y);
+    }
+    run(&r, 0.3);
+    const fw_rim *rim = r.w->bodies[0].rim;
+    assert_true(fabs(place[N - 1] - place[0]) * D / 2 > 5 * rim->width);
+    int n = 0;
+    for (int i = 0; i + 1 < N && deep[i + 1] > deep[i]; i++, n++)
+        assert_true(fw_rim_deepest(rim, place[i], &slope) > deep[i] - 2e-4); /* pressed in every half node: (width / 4)^2 / (2 R*) */
+    assert_true(n > 100 && energy_out(r.w) < 1e-3);
+    end(&fine), end(&r);
+}
+
 /* A floe that never touched the structure has no rim. */
 static void no_rim_without_a_touch(void **state)
 {
@@ -236,6 +262,6 @@ static void no_rim_without_a_touch(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(rim_remembers), cmocka_unit_test(rim_has_no_jumps), cmocka_unit_test(energy_of_a_push), cmocka_unit_test(energy_of_a_slide),
-                                       cmocka_unit_test(rests_on_its_flat), cmocka_unit_test(comes_back_on_its_flat), cmocka_unit_test(no_rim_without_a_touch)};
+                                       cmocka_unit_test(rests_on_its_flat), cmocka_unit_test(comes_back_on_its_flat), cmocka_unit_test(a_push_that_turns), cmocka_unit_test(no_rim_without_a_touch)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -205,6 +205,24 @@ static void path_with_and_without_flat(void **state)
     }
 }
 
+/* The mirror image of a hit wears as much and spins the other way; locked rotation has no moment to give. */
+static void mirrored_and_locked(void **state)
+{
+    (void)state;
+    fw_floe         f = floe_at(5, 0.7, 2.1, 1.3), g = floe_at(5, 0.7, -2.1, 1.3);
+    fw_scene        s = crush_scene(&f, 1.1e6, true, 6, 0.001), t = crush_scene(&g, 1.1e6, true, 6, 0.001);
+    fw_scene_result a, b;
+    run(&s, &a), run(&t, &b);
+    CHECK_RELATIVE(b.depth_x_wall, a.depth_x_wall, 1e-6);
+    CHECK_RELATIVE(b.floes[0].spin, -a.floes[0].spin, 1e-6);
+    fw_scene_result_free(&a), fw_scene_result_free(&b);
+    s.model.effects &= ~(uint32_t)FW_EFFECT_ROTATION, t.model.effects = s.model.effects;
+    g = f, t.model.crush.has_flat = false;
+    run(&s, &a), run(&t, &b);
+    assert_true(a.depth_x_wall == b.depth_x_wall && a.floes[0].spin == 0 && a.path > 1);
+    fw_scene_result_free(&a), fw_scene_result_free(&b);
+}
+
 /* --- springs from the pressure ----------------------------------------------------------------------------------------- */
 
 /* Nothing but k changes: the very bits of a scene that is given that k. On the structure v is the current's, m the floe's. */
@@ -304,7 +322,7 @@ static void refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(reference_hits), cmocka_unit_test(error_follows_tolerance), cmocka_unit_test(head_on), cmocka_unit_test(rolls_or_slides),
-                                       cmocka_unit_test(path_with_and_without_flat), cmocka_unit_test(stiffness_from_pressure),
+                                       cmocka_unit_test(path_with_and_without_flat), cmocka_unit_test(mirrored_and_locked), cmocka_unit_test(stiffness_from_pressure),
                                        cmocka_unit_test(windows_keep_the_laws), cmocka_unit_test(off_is_absent), cmocka_unit_test(refusals)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
