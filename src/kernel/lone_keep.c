@@ -114,6 +114,7 @@ void fw_lone_keep(fw_cluster *c, const fw_books *b)
     const fw_lone_state *e = &y[PIECE - 1];
     if (wears) p->wear_until = c->t1, p->wear_angle = angle - e->turn;
     p->load_tried = load;
+    l->drag_size += fabs(mass * drag_work);
     l->drag_work += mass * drag_work, l->dashpot += dashpot, l->friction += friction;
     double d_start = fw_larger(0, L->from.depth), d_end = fw_larger(0, e->depth);
     double stored = 0.5 * p->law.k * (d_end * d_end - d_start * d_start);

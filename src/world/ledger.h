@@ -9,6 +9,7 @@ typedef struct fw_ledger {
     double impulse_work;               /* sum of impulse times mean velocity, the same thing reached from the forces */
     double impulse_size;               /* sum of |impulse| |mean velocity|: what both are measured against */
     double drag_work;                  /* quadrature of drag power over steps, and the exact change in free flight */
+    double drag_size;                  /* without sign, of floes in contact */
     double inflow, outflow;            /* kinetic and stored energy of floes that entered or left the awake set */
     double dashpot, friction, dropped; /* dissipated; dropped: spring energy lost where tension is refused */
     double crushed, rolling;           /* by ice that crushes; by the moment of its flats */
@@ -43,7 +44,7 @@ typedef struct fw_ledger {
 double fw_ledger_energy_relative(const fw_ledger *l);
 double fw_ledger_momentum_relative(const fw_ledger *l);
 /* Balance of the trajectory: start + inflow + drag = dissipated + outflow + end, relative to what was dissipated or, where that is more, went
- * through springs.
+ * through springs; at least to a tenth of what water and air did to floes in contact, and to a thousandth of what floes brought.
  * start, end: kinetic plus stored energy of the awake floes [J]. */
 double fw_ledger_energy_truncation(const fw_ledger *l, double start, double end);
 /* What friction, dashpots and crushing gave instead of took, relative to the same; sums over all contacts. */

@@ -93,6 +93,11 @@ static void ledgers(void **state)
     CHECK_NEAR(fw_ledger_energy_relative(&l), 0.01, 1e-15);
     CHECK_NEAR(fw_ledger_momentum_relative(&l), 0.1, 1e-15);
     CHECK_NEAR(fw_ledger_energy_truncation(&l, 10, 6), 0.2, 1e-15);
+    /* 1 J astray of 5 J that contacts took, of a tenth of 1 kJ that drag moved, of a thousandth of 100 kJ that floes brought */
+    l.drag_size = 1000;
+    CHECK_NEAR(fw_ledger_energy_truncation(&l, 10, 6), 0.01, 1e-15);
+    l.drag_size = 0, l.inflow = 1e5 - 10;
+    CHECK_NEAR(fw_ledger_energy_truncation(&l, 10, 1e5 - 4), 0.01, 1e-12);
     fw_ledger empty = {0};
     assert_true(fw_ledger_energy_relative(&empty) == 0 && fw_ledger_energy_truncation(&empty, 0, 0) == 0);
 }
