@@ -62,12 +62,19 @@ static double fastest_change(const fw_tide *tide)
     return most;
 }
 
-/* Largest speed of the current, over the scenario's. */
-static double largest_factor(const fw_tide *tide)
+/* Largest speed of the current from 0 to t_end, over the scenario's: a window at slack water is to be as accurate as any. */
+static double largest_factor(const fw_weather *w, double t_end)
 {
-    if (tide->n_rows == 0) return fmax(1, fabs(tide->minor_ratio));
-    double most = 0;
-    for (size_t k = 0; k < tide->n_rows; k++) most = fmax(most, fabs(tide->rows[k].factor));
+    enum { LOOKS = 64 };
+    const fw_tide *tide = w->tide;
+    double         most = 0, x, y;
+    if (tide->n_rows == 0 && t_end >= 0.5 * tide->period) return 1; /* the major axis is passed */
+    for (int i = 0; i <= LOOKS; i++) {
+        course_at(w, t_end * i / LOOKS, &x, &y);
+        most = fmax(most, hypot(x, y));
+    }
+    for (size_t k = 0; k < tide->n_rows; k++)
+        if (w->start + tide->rows[k].time < t_end) most = fmax(most, fabs(tide->rows[k].factor));
     return most;
 }
 
@@ -109,7 +116,7 @@ fw_status fw_weather_init(fw_weather *w, fw_setup *set, const fw_model *model, c
     }
     if (set->has_deflection && mix >= 0) set->wake_radius = DEFLECTED * cbrt(DEFLECTED_FOR / model->accuracy) * model->structure_radius;
     set->flow = fw_weather_flow(w, 0);
-    w->fastest = w->tide ? fmax(fabs(sc->speed) * largest_factor(w->tide), FW_SLOWEST) : fabs(sc->speed);
+    w->fastest = w->tide ? fmax(fabs(sc->speed) * largest_factor(w, start + duration), FW_SLOWEST) : fabs(sc->speed);
     w->fastest += w->drift * fmax(0, hypot(w->wind_x, w->wind_y) - w->fastest);
     return FW_OK;
 }
