@@ -11,6 +11,7 @@
 #include "cli/effects_print.h"
 #include "cli/effects_tables.h"
 #include "effects/effects.h"
+#include "study/effects_measured.h"
 
 fw_status fw_choice_path(char *path, size_t size, const char *out, fw_choice_file kind, fw_msg *m)
 {
@@ -181,6 +182,7 @@ static fw_status find_effects(const fw_campaign *c, const fw_choice_wanted *w, f
     fw_tables  *t = NULL;
     struct stat st;
     FW_TRY(fw_choice_path(path, sizeof path, w->out ? w->out : c->name, FW_CHOICE_EFFECTS, m));
+    fw_effects_measured_default(&out->effects, &c->model);
     if (stat(path, &st) != 0) {
         if (c->model.effects_tolerance > 0) SAY_EFFECTS("effects: none is left out: no %.300s (floewear plan --effects writes it)", path);
         return FW_OK;
@@ -191,6 +193,7 @@ static fw_status find_effects(const fw_campaign *c, const fw_choice_wanted *w, f
     fw_tables_close(t);
     FW_CHECK(s != FW_E_NOMEM, m, s, "%s", why.text); /* not to go on with other effects for that */
     if (s != FW_OK) {
+        fw_effects_measured_default(&out->effects, &c->model);
         SAY_EFFECTS("effects: not used: %.400s", why.text);
         return FW_OK;
     }

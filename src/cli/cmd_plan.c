@@ -226,6 +226,7 @@ static void print_json(const fw_campaign *c, const fw_scene_facts *facts, const 
     fw_json_end(&j);
     fw_json_key(&j, "effects_choice"), fw_json_string(&j, choice->effects_line);
     fw_json_key(&j, "effects_ledger"), fw_effects_json_rows(&j, &choice->effects);
+    fw_json_key(&j, "effects_measured"), fw_json_string(&j, choice->effects.n_rows ? choice->effects.origin : "nowhere");
     fw_accuracy_line lines[16];
     size_t           n_lines = fw_accuracy_lines(&c->model, speed, lines, 16);
     fw_json_key(&j, "numerics"), fw_json_string(&j, choice->line);

@@ -12,6 +12,7 @@
 #include "cli/effects_tables.h"
 #include "cli/output.h"
 #include "cli/report_table.h"
+#include "study/effects_measured.h"
 
 typedef struct report_arguments {
     const char *path, *law;
@@ -130,6 +131,7 @@ static fw_status read_measured(const char *path, const fw_campaign *c, fw_measur
     FW_TRY(fw_tables_open(&t, path, NULL, m));
     fw_status s = fw_tables_has(t, "accuracy") ? fw_accuracy_file_read_measured(t, out, m) : FW_OK;
     if (s == FW_OK) s = fw_effects_tables_read(t, effects, m);
+    if (s == FW_OK && effects->n_rows == 0) fw_effects_measured_default(effects, &c->model);
     fw_tables_close(t);
     return s;
 }

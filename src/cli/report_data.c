@@ -200,6 +200,7 @@ void fw_report_print_json(FILE *to, const fw_campaign *c, const fw_answer *a)
     json_life(&j, a);
     json_ledger(&j, a);
     fw_json_key(&j, "effects_ledger"), fw_effects_json_rows(&j, &a->effects);
+    fw_json_key(&j, "effects_measured"), fw_json_string(&j, a->effects.n_rows ? a->effects.origin : "nowhere");
     json_after(&j, c, a);
     fw_json_key(&j, "not_applied");
     fw_json_begin_array(&j);

@@ -214,11 +214,27 @@ static void print_ledger(FILE *to, const fw_answer *a)
     }
 }
 
-static void print_effects(FILE *to, const fw_answer *a)
+/* The design number by the spring and by ice that crushes, side by side: this run's own, and what the other law made of it where it was measured. */
+static void print_both_laws(FILE *to, const fw_campaign *c, const fw_answer *a)
+{
+    const fw_effects_row    *crush = fw_effects_find_row(&a->effects, "crush_contact");
+    const fw_percentile_row *own = NULL;
+    for (size_t i = 0; i < a->n_percentiles; i++)
+        if (a->percentiles[i].point == a->governing_point && a->percentiles[i].percentile == a->effects.percentile) own = &a->percentiles[i];
+    if (!crush || crush->note[0] || !own || crush->was_on != ((c->model.effects & FW_EFFECT_CRUSH_CONTACT) != 0)) return;
+    const fw_change *by = &crush->percentile;
+    fprintf(to, "  contact laws side by side, P%g at point %zu: %s %.3g mm (this run), %s %.3g mm", own->percentile, own->point,
+            crush->was_on ? "crushing" : "spring", own->depth_mm, crush->was_on ? "spring" : "crushing", own->depth_mm * (1 + by->change));
+    if (isfinite(by->low) && isfinite(by->high)) fprintf(to, " [%.3g, %.3g]", own->depth_mm * (1 + by->low), own->depth_mm * (1 + by->high));
+    fputc('\n', to);
+}
+
+static void print_effects(FILE *to, const fw_campaign *c, const fw_answer *a)
 {
     if (a->effects.n_rows == 0) return;
     fprintf(to, "\neffects and open choices, switched one at a time on the same ice, %s\n", a->effects.origin);
     fw_effects_print_rows(to, &a->effects);
+    print_both_laws(to, c, a);
 }
 
 static void print_limits(FILE *to, const fw_campaign *c)
@@ -240,6 +256,6 @@ void fw_report_print_table(FILE *to, const fw_campaign *c, const fw_answer *a)
     print_water_level(to, c, a);
     print_life(to, c, a);
     print_ledger(to, a);
-    print_effects(to, a);
+    print_effects(to, c, a);
     print_limits(to, c);
 }

@@ -174,7 +174,7 @@ static void switched_off(fw_ledger_row *row, const fw_effects_ledger *l, const f
     say_change(percentile, sizeof percentile, &e->percentile);
     SAY(row->row, "%s", e->name);
     row->amount = amount_of(e);
-    SAY(row->shrinks_with, "effects: {%s: on}; %s gave mean %s, P%g %s %.100s", e->name, e->change, mean, l->percentile, percentile, l->origin);
+    SAY(row->shrinks_with, "effects: {%s: on}; %s gave mean %s, P%g %s, measured %.90s", e->name, e->change, mean, l->percentile, percentile, l->origin);
     SAY(row->cost_to_halve, "all again with it, %.3g times the work (%.3g force evaluations)", factor, factor * w->depth->evaluations);
     row->cost_to_halve_cpu_s = cpu * w->depth->cpu_s;
 }
@@ -190,7 +190,7 @@ static size_t switched_off_effects(fw_ledger_row *row, const fw_campaign *c, con
     }
     for (size_t i = 0; i < l->n_rows; i++) {
         const fw_effects_row *e = &l->rows[i];
-        if (!e->bit || (c->model.effects & e->bit) || e->note[0]) continue;
+        if (!e->bit || (c->model.effects & e->bit) || e->note[0] || e->bit == FW_EFFECT_CRUSH_CONTACT) continue;
         switched_off(row, l, e, w);
         if (row->amount > 0) amount += row->amount;
         row++;
@@ -200,6 +200,29 @@ static size_t switched_off_effects(fw_ledger_row *row, const fw_campaign *c, con
     SAY(sum->shrinks_with, "%s", row > sum + 1 ? "the rows below, summed as if they all went one way" : "none is off that could be on here");
     SAY(sum->cost_to_halve, "%s", row > sum + 1 ? "see there" : "none");
     return (size_t)(row - sum);
+}
+
+/* Spring or ice that crushes: two models of one contact, of which neither is left out. */
+static void contact_law(fw_ledger_row *row, const fw_campaign *c, const fw_effects_ledger *l, const fw_window *w)
+{
+    const fw_effects_row *e = NULL;
+    for (size_t i = 0; i < l->n_rows; i++)
+        if (l->rows[i].bit == FW_EFFECT_CRUSH_CONTACT && !l->rows[i].note[0]) e = &l->rows[i];
+    if (!e) {
+        unmeasured(row, "contact law", "floewear plan --effects sets spring and crushing side by side");
+        return;
+    }
+    bool is_crush = (c->model.effects & FW_EFFECT_CRUSH_CONTACT) != 0;
+    char mean[64], percentile[64];
+    say_change(mean, sizeof mean, &e->mean);
+    say_change(percentile, sizeof percentile, &e->percentile);
+    SAY(row->row, "contact law");
+    row->amount = amount_of(e);
+    SAY(row->shrinks_with, "ice that is known: here %s; %s gave mean %s, P%g %s, measured %.80s", is_crush ? "it crushes" : "a spring",
+        is_crush ? "the spring" : "crushing", mean, l->percentile, percentile, l->origin);
+    double factor = e->was_on ? 1 / (1 - e->evaluations_saved) : 1 - e->evaluations_saved, cpu = e->was_on ? 1 / (1 - e->cpu_saved) : 1 - e->cpu_saved;
+    SAY(row->cost_to_halve, "all again with the other one, %.3g times the work (%.3g force evaluations)", factor, factor * w->depth->evaluations);
+    row->cost_to_halve_cpu_s = cpu * w->depth->cpu_s;
 }
 
 /* A factor on every depth: no part of the percentiles, which are those of the law as it stands. */
@@ -237,7 +260,7 @@ static void between_years(fw_ledger_row *row, const fw_campaign *c)
 fw_status fw_ledger_rows(fw_answer *a, const fw_campaign *c, const fw_window *w, const fw_percentile_row *governing,
                          fw_msg *m)
 {
-    enum { MOST = 11 + FW_MEASURED_ROWS + FW_EFFECTS_ROWS };
+    enum { MOST = 12 + FW_MEASURED_ROWS + FW_EFFECTS_ROWS };
     FW_TRY(fw_alloc(&a->ledger, MOST, sizeof *a->ledger, "rows of the ledger", m));
     for (size_t i = 0; i < MOST; i++) a->ledger[i].cost_to_halve_cpu_s = NAN;
     fw_ledger_row *row = a->ledger;
@@ -249,6 +272,7 @@ fw_status fw_ledger_rows(fw_answer *a, const fw_campaign *c, const fw_window *w,
     packed_ice(row++, w);
     unmeasured(row++, "ice field against scenario", "more realisations");
     law_scatter(row++, c, &a->law_scatter, governing);
+    contact_law(row++, c, &a->effects, w);
     row += switched_off_effects(row, c, &a->effects, w);
     if (c->service.is_asked) {
         between_years(row++, c);

@@ -163,9 +163,10 @@ class Use(InFolder):
     def test_plan_shows_it(self):
         out = self.fetch()
         bare = json.loads(call("plan", CAMPAIGN, "--pilot", "0", "--json", "-o", "elsewhere").stdout)
-        self.assertIsNone(bare["effects_ledger"])
+        self.assertIn("Raahe", bare["effects_measured"])
         plan = json.loads(call("plan", CAMPAIGN, "--pilot", "0", "--json").stdout)
         self.assertEqual(plan["effects_ledger"], out["effects_ledger"])
+        self.assertIn("this campaign", plan["effects_measured"])
         text = call("plan", CAMPAIGN, "--pilot", "0").stdout
         self.assertIn("CPU share", text)
         self.assertIn("measured on this campaign", text)
@@ -178,6 +179,10 @@ class Use(InFolder):
         self.assertEqual(result["effects_ledger"], out["effects_ledger"])
         ledger = {row["row"]: row for row in result["ledger"]}
         off = [r for r in out["effects_ledger"] if r["is_effect"] and not r["was_on"] and r["not_measured"] is None]
+        crush = [r for r in off if r["name"] == "crush_contact"][0] # another law of the same contact: not left out, set beside it
+        off.remove(crush)
+        self.assertIn("here a spring", ledger["contact law"]["shrinks_with"])
+        self.assertGreaterEqual(ledger["contact law"]["amount"], abs(crush["percentile"]["change"]) * (1 - 1e-12))
         self.assertLessEqual({r["name"] for r in off}, set(ledger))
         self.assertAlmostEqual(ledger["switched-off effects"]["amount"], sum(ledger[r["name"]]["amount"] for r in off))
         for r in off:
@@ -187,19 +192,20 @@ class Use(InFolder):
         os.remove("dense.effects.h5")
         alone = json.loads(call("report", "dense.h5", "--json").stdout)
         self.assertEqual((alone["ledger"], alone["effects_ledger"]), (result["ledger"], result["effects_ledger"]))
-        self.assertIn("effects and open choices", call("report", "dense.h5").stdout)
+        text = call("report", "dense.h5").stdout
+        self.assertIn("effects and open choices", text)
+        self.assertRegex(text, r"contact laws side by side, P90 at point \d+: spring [0-9.e-]+ mm \(this run\), crushing [0-9.e-]+ mm")
         again = json.loads(call("run", CAMPAIGN, "--json").stdout)
-        self.assertIsNone(again["effects_ledger"])
-        row = [r for r in again["ledger"] if r["row"] == "switched-off effects"][0]
-        self.assertIsNone(row["amount"])
-        self.assertIn("plan --effects", row["shrinks_with"])
+        self.assertIn("Raahe", again["effects_measured"])
+        row = [r for r in again["ledger"] if r["row"] == "skin_drag"][0]
+        self.assertIn("measured on the Raahe campaign", row["shrinks_with"])
 
     def test_another_campaign(self):
         self.fetch()
         done = call("run", CAMPAIGN, "--set", "precision.max_realisations=2", "--set", "contact.friction=0.2", "-o", "dense", "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("not used: dense.effects.h5 belongs to another campaign (contact.friction differs)", done.stderr)
-        self.assertIsNone(json.loads(done.stdout)["effects_ledger"])
+        self.assertIn("Raahe", json.loads(done.stdout)["effects_measured"])
         pathlib.Path("dense.effects.h5").write_text("mine")
         done = call("run", CAMPAIGN, "--set", "precision.max_realisations=2", "-o", "dense", "--fresh")
         self.assertEqual(done.returncode, 0, done.stderr)
