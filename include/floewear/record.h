@@ -13,8 +13,9 @@
  * November 2026; 3: awake_floes, reach; 4: watch-dogs, second tries; 5: slip watched between
  * floes too; 6: wear of stiff viscous slip, overlaps at their peak, dashpots of long steps; 7: slip of
  * symmetric wedges, a slowest current; 8: mean_diameter_wanted; 9: what a
- * cluster has dissipated is shared out where it falls apart; 10: steps stay cut where a touch that is none was looked for. */
-enum { FW_RECORD_GENERATION = 10 };
+ * cluster has dissipated is shared out where it falls apart; 10: steps stay cut where a touch that is none was looked for; 11: an energy
+ * balance is measured at least against what water, air and floes bring; mean thickness that wore; further effects. */
+enum { FW_RECORD_GENERATION = 11 };
 
 /* Scalar columns: C type tag, name (also the HDF5 dataset and journal order), unit (UDUNITS), long name.
  * One list, so that packing, HDF5, documentation and comparison cannot drift apart. */

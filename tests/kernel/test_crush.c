@@ -227,9 +227,11 @@ static void a_push_that_turns(void **state)
 {
     (void)state;
     enum { N = 250 };
-    double deep[N], place[N], slope;
-    rig    fine = start(setup(true, 0), 0, 0), r = start(setup(true, 0), 0, 0);
-    fine.w->bodies[0].spin = r.w->bodies[0].spin = 15;
+    double deep[N], place[N], slope, lack = 0;
+    fw_setup coarse = setup(true, 0);
+    coarse.tolerance = coarse.wear_tolerance = 0.01, coarse.first_step = 0.2, coarse.growth = 10, coarse.crush_share = 1, coarse.energy_tolerance = 1;
+    rig fine = start(setup(true, 0), 0, 0), r = start(coarse, 0, 0);
+    fine.w->bodies[0].spin = r.w->bodies[0].spin = 60;
     fine.w->energy_start = fw_world_energy(fine.w), r.w->energy_start = fw_world_energy(r.w);
     for (int i = 0; i < N; i++) {
         run(&fine, 0.1502 + 1e-4 * i);
@@ -242,8 +244,8 @@ static void a_push_that_turns(void **state)
     assert_true(fabs(place[N - 1] - place[0]) * D / 2 > 5 * rim->width);
     int n = 0;
     for (int i = 0; i + 1 < N && deep[i + 1] > deep[i]; i++, n++)
-        assert_true(fw_rim_deepest(rim, place[i], &slope) > deep[i] - 2e-4); /* pressed in every half node: (width / 4)^2 / (2 R*) */
-    assert_true(n > 100 && energy_out(r.w) < 1e-3);
+        lack = fmax(lack, deep[i] - fw_rim_deepest(rim, place[i], &slope));
+    assert_true(n > 100 && lack < 1e-3); /* imprints at its steps' ends alone: 2.7e-2 */
     end(&fine), end(&r);
 }
 
