@@ -48,7 +48,6 @@ static void windows(void **state)
         m.mixes[0].classes[0] = (fw_thickness_class){H[0], n == 1 ? 1 : 0.5}, m.mixes[0].classes[1] = (fw_thickness_class){H[1], 0.5};
         fw_scenario s = {.seed = 3, .concentration = 0.3, .speed = 2};
         fw_record   r;
-        assert_int_equal(fw_record_init(&r, m.n_arcs, m.n_laws, NULL), FW_OK);
         assert_int_equal(fw_realise(&m, &s, NULL, &r, NULL), FW_OK);
         if (n == 1)
             CHECK_RELATIVE(r.wear_thickness, H[0], 1e-12);
