@@ -176,9 +176,9 @@ void fw_books_keep(fw_cluster *c, const fw_books *books)
 
 /* The floe lets go within the step. Stages beyond the release are no force that ever was, and a polynomial through them bulges (up to
  * a tenth of a hit's depth); so the interval ends where the force is gone, and it falls straight until then. */
-static void end_where_it_lets_go(const fw_cluster *c, const fw_pair *p, const fw_method *me, fw_wear_interval *iv)
+static void end_where_it_lets_go(fw_wear_interval *iv, double gone)
 {
-    double h = iv->length, gone = fw_cluster_lets_go(c, p, me);
+    double h = iv->length;
     double u = gone / h, d1 = iv->depth[1] - iv->depth[0], r0 = -iv->rate[0], r1 = -iv->rate[1];
     double c2 = 3 * d1 + h * (2 * r0 + r1),
            c3 = -h * (r0 + r1) - 2 * d1; /* depth as a cubic, its slope is the closing rate */
@@ -215,10 +215,12 @@ void fw_books_wear(const fw_cluster *c, const fw_books *books)
         iv.n_stages = me->n_stages;
         for (size_t s = 0; s < me->n_stages; s++)
             iv.at[s] = me->c[s], iv.normal[s] = fw_pair_signed_normal(p, s), iv.slip[s] = p->slip[s];
+        double gone = INFINITY;
         if (fw_rim_of(p))
-            iv.is_crushed = true, fw_crush_interval(p, me->n_stages, &iv);
+            iv.is_crushed = true, gone = fw_crush_interval(p, me->n_stages, &iv);
         else if (iv.normal[0] > 0 && iv.normal[last] <= 0)
-            end_where_it_lets_go(c, p, me, &iv);
+            gone = fw_cluster_lets_go(c, p, me);
+        if (gone < INFINITY) end_where_it_lets_go(&iv, gone);
         iv.radius = a->radius, iv.thickness = body->thickness;
         fw_wear_collect(books->wear, &iv);
     }

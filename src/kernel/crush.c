@@ -47,6 +47,7 @@ fw_status fw_crush_close(fw_pair *p, const fw_setup *s, fw_body *a, const fw_bod
     if (!crushes) return FW_OK;
     if (!a->rim) FW_TRY(make_rim(&a->rim, s, a, &p->law, m));
     p->rim = a->rim;
+    p->load = a->rim->load;
     p->law.k = p->law.c = 0;
     return FW_OK;
 }
@@ -70,15 +71,14 @@ double fw_rim_deepest(const fw_rim *r, double place, double *slope)
 {
     long   n = (long)r->n, k = (long)floor(place * ((double)n / TWO_PI)) % n;
     size_t i = (size_t)(k < 0 ? k + n : k), j = i + 1 < r->n ? i + 1 : 0;
-    bool   is_known = false;
     const fw_imprint *known[] = {&r->node[i], &r->node[j], &r->own};
-    double            D = 1e-12 * r->radius, turn; /* less is nothing */
+    double            D = FW_CRUSH_ELASTIC, turn;
     *slope = 0;
     for (int q = 0; q < 3; q++) {
         double at = fw_rim_imprint(r, known[q], place, &turn);
-        if (at > D) D = at, *slope = turn, is_known = true;
+        if (at > D) D = at, *slope = turn;
     }
-    return is_known ? D : 0;
+    return D;
 }
 
 void fw_rim_press(fw_rim *r, fw_imprint own)
@@ -100,10 +100,8 @@ double fw_rim_force(const fw_rim *r, double depth, double *chord)
 
 double fw_rim_stored(const fw_rim *r, double depth, double deepest)
 {
-    double b, D = fw_larger(depth, deepest);
-    if (!(D > 0)) return 0;
-    double F = fw_rim_force(r, D, &b), N = fw_larger(0, fw_rim_line(r, depth, D, F));
-    return N > 0 ? 0.5 * N * N * D / (r->kappa * F) : 0;
+    double b, D = fw_larger(depth, deepest), F = fw_rim_force(r, D, &b), N = fw_rim_line(r, depth, D, F);
+    return N > 0 ? 0.5 * N * N / fw_rim_stiffness(r, D, F) : 0;
 }
 
 static double place_of(double nx, double ny, double angle) { return atan2(ny, nx) - angle; }
@@ -128,13 +126,12 @@ static void look(fw_pair *p, size_t s, double place)
     r->chord[s] = r->fresh_chord;
 }
 
-/* N with its sign at overlap d that changes by w; chord and yield follow. Fresh rims that part are a little below zero. */
+/* N with its sign at overlap d that changes by w; chord and yield follow. */
 static double signed_force(fw_rim *r, size_t s, double d, double w)
 {
     double D = r->deepest[s];
     r->chord[s] = r->fresh_chord, r->yield[s] = r->fresh_yield;
-    if (D > 0 && d < D) return fw_smaller(r->yield[s], fw_rim_line(r, d, D, r->yield[s]) + fw_rim_damping(r, D, r->yield[s]) * w);
-    if (!(d > 0)) return -fw_rim_force(r, -d, &D);
+    if (d < D) return fw_smaller(r->yield[s], fw_rim_line(r, d, D, r->yield[s]) + fw_rim_damping(r, D, r->yield[s]) * w);
     r->yield[s] = fw_rim_force(r, d, &r->chord[s]);
     return r->yield[s] + fw_rim_damping(r, d, r->yield[s]) * fw_smaller(0, w);
 }
@@ -225,12 +222,9 @@ static double solve_normal(fw_rim *r, size_t s, double A, double B, double rate0
 {
     double D = r->deepest[s], F = r->yield[s] = r->fresh_yield;
     r->chord[s] = r->fresh_chord;
-    if (!(D > 0) && !(A > 0)) return 0;
-    if (D > 0) {
-        double S = r->kappa * F / D, c = fw_rim_damping(r, D, F), N0 = F - S * D + c * rate0, K = S + c * per_depth;
-        double N = clamp((K * A + N0) / (1 + B * K), F); /* N = N0 + K d */
-        if (A - B * N <= D && (N > 0 || A <= D)) return N;
-    }
+    double c = fw_rim_damping(r, D, F), K = fw_rim_stiffness(r, D, F) + c * per_depth;
+    double N = clamp((fw_rim_line(r, A, D, F) + c * (rate0 + A * per_depth)) / (1 + B * K), F); /* on the line, of slope K in d */
+    if (A - B * N <= D && (N > 0 || A <= D)) return N;
     double d = push_to(r, D, A, B);
     if (rate0 + d * per_depth < 0) d = recede_to(r, s, A, B, D, fw_smaller(A, -rate0 / per_depth), rate0, per_depth);
     return clamp(signed_force(r, s, d, rate0 + d * per_depth), INFINITY);

@@ -50,6 +50,7 @@ typedef struct fw_rim {
     fw_imprint own;      /* last one of this contact */
     double place;        /* under the wall at the last committed instant [rad] */
     double stored;       /* at the last committed instant [J] */
+    double load;         /* of all its touches so far: fw_pair.load goes on from touch to touch */
     /* the tried step, at the stages */
     double deepest[FW_MAX_STAGES], slope[FW_MAX_STAGES];  /* D before this step, dD/ds */
     double chord[FW_MAX_STAGES], yield[FW_MAX_STAGES];    /* of the larger one of D and d: b, F */
@@ -85,7 +86,8 @@ double fw_crush_turn(const fw_cluster *c, const fw_pair *p, const fw_setup *s, d
 
 /* books.c */
 void fw_crush_weigh(fw_cluster *c, const fw_method *me, fw_pair *p, double h, fw_step_books *to);
-void fw_crush_interval(const fw_pair *p, size_t n_stages, fw_wear_interval *iv); /* its pressure and deepest overlap */
+/* its pressure and deepest overlap; when its force is gone for the rest of it [s]; INFINITY: it is not */
+double fw_crush_interval(const fw_pair *p, size_t n_stages, fw_wear_interval *iv);
 
 /* cluster_commit.c: the imprints of a committed step, once the members stand at its end; how far bodies have turned */
 void fw_crush_commit(fw_cluster *c, fw_world *w, size_t last, double h);

@@ -19,9 +19,13 @@ double fw_rim_deepest(const fw_rim *r, double place, double *slope);
 void fw_rim_press(fw_rim *r, fw_imprint own);
 /* F(d), and the chord. */
 double fw_rim_force(const fw_rim *r, double depth, double *chord);
-/* Elastic part of N on the line of D > 0, F = F(D), and the damper beside it. */
-static inline double fw_rim_line(const fw_rim *r, double depth, double D, double F) { return F * (1 - r->kappa * (D - depth) / D); }
-static inline double fw_rim_damping(const fw_rim *r, double D, double F) { return 2 * sqrt(r->kappa * F / D * r->mass); }
+/* Slope S of the line of D, F = F(D); elastic part of N on it, and the damper beside it. */
+static inline double fw_rim_stiffness(const fw_rim *r, double D, double F) { return fw_crush_kappa(r->kappa, D) * F / D; }
+static inline double fw_rim_line(const fw_rim *r, double depth, double D, double F)
+{
+    return D > FW_CRUSH_ELASTIC ? F * (1 - fw_crush_kappa(r->kappa, D) * (D - depth) / D) : F * depth / D;
+}
+static inline double fw_rim_damping(const fw_rim *r, double D, double F) { return 2 * sqrt(fw_rim_stiffness(r, D, F) * r->mass); }
 /* What is stored at an overlap, deepest: before it [J]. */
 double fw_rim_stored(const fw_rim *r, double depth, double deepest);
 

@@ -9,6 +9,7 @@ enum { PROBES = 8, HALVINGS = 40 };
 static const double AT = 1e-12;
 static const double ROUNDING = 1e-9;  /* of caps, which are solved for exactly */
 static const double QUASI_STATIC = 6; /* step in m / c: 3 in 1/w, as in books.c */
+static const double LONG = 100;         /* step in m / c, beyond which an error of velocity is one of force by the mass alone */
 /* A kink is met when what is wrong behind it is more than this share of the tolerance of velocity. */
 static const double MATTERS = 0.1;
 
@@ -43,8 +44,9 @@ static void probe(const course *o, double u, double at[N_KINKS])
     double        slope, b, d = value(o->d, u), rate = (o->d[1] + u * (2 * o->d[2] + 3 * u * o->d[3])) * o->per_h;
     double        D = fw_rim_deepest(r, o->from + value(o->at, u), &slope), F = fw_rim_force(r, D, &b);
     at[OVER] = d - D;
-    at[PRESSED] = D > 0 ? d - D * (1 - 1 / r->kappa) + 2 * sqrt(r->mass * D / (r->kappa * F)) * rate : d;
-    at[FULL] = D > 0 ? at[PRESSED] - D / r->kappa : d;
+    double S = fw_rim_stiffness(r, D, F);
+    at[PRESSED] = fw_rim_line(r, d, D, F) / S + 2 * sqrt(r->mass / S) * rate;
+    at[FULL] = at[PRESSED] - F / S;
 }
 
 /* Where between low and high, on either side of which a kink's zero differs in sign. */
@@ -74,7 +76,17 @@ static double largest_of(double was, const double at[N_KINKS], int kink)
 static double stiffness(const fw_rim *r, double D)
 {
     double b;
-    return D > 0 ? r->kappa * fw_rim_force(r, D, &b) / D : 0;
+    return fw_rim_stiffness(r, D, fw_rim_force(r, D, &b));
+}
+
+/* On the line, between no force and all of it, at all stages of a step so long that overlap follows force: the cubic through its ends, with slopes that are
+ * what tolerance leaves of 0, says nothing about kinks then. */
+static bool is_held(const fw_pair *p, size_t last, double h)
+{
+    const fw_rim *r = p->rim;
+    bool          is_held = h * fw_rim_damping(r, r->deepest[0], fw_rim_force(r, r->deepest[0], &(double){0})) > LONG * r->mass;
+    for (size_t s = 0; s <= last && is_held; s++) is_held = p->depth[s] < r->deepest[s] && p->normal[s] > 0 && p->normal[s] < r->yield[s];
+    return is_held;
 }
 
 double fw_crush_turn(const fw_cluster *c, const fw_pair *p, const fw_setup *set, double h)
@@ -85,13 +97,15 @@ double fw_crush_turn(const fw_cluster *c, const fw_pair *p, const fw_setup *set,
     double        most = MATTERS * set->crush_share * set->tolerance * set->velocity_scale * r->mass / h, at[N_KINKS], was[N_KINKS]; /* force x share of the step */
     probe(&o, 0, was);
     double near = AT * r->radius;
-    if (was[OVER] >= -near && p->rate[0] > 0) { /* a push: to its peak, where history is written */
-        double u = 0, c2 = o.d[2], c3 = o.d[3], q = c2 * c2 - 3 * c3 * o.d[1];
-        if (q >= 0) u = o.d[1] / (sqrt(q) - c2);
-        if (!(u > 0 && u < 1)) return h;
-        double peak = value(o.d, u), S = stiffness(r, peak), wrong = S * (peak - p->depth[last]) + 2 * sqrt(S * r->mass) * fabs(p->rate[last]);
-        return wrong * (1 - u) > most ? u * h : h;
+    double top = 0, c2 = o.d[2], c3 = o.d[3], root = c2 * c2 - 3 * c3 * o.d[1];
+    if (root >= 0) top = o.d[1] / (sqrt(root) - c2);
+    bool has_peak = top > 0 && top < 1, begins = was[OVER] >= -near || (r->deepest[0] <= FW_CRUSH_ELASTIC && value(o.d, has_peak ? top : 1) > FW_CRUSH_ELASTIC);
+    if (begins && p->rate[0] > 0) { /* a push, maybe from the touch on: to its peak, where history is written */
+        if (!has_peak) return h;
+        double peak = value(o.d, top), S = stiffness(r, peak), wrong = S * (peak - p->depth[last]) + 2 * sqrt(S * r->mass) * fabs(p->rate[last]);
+        return wrong * (1 - top) > most ? top * h : h;
     }
+    if (is_held(p, last, h)) return h;
     if (fabs(was[OVER]) <= near) was[OVER] = -1, was[PRESSED] = 1, was[FULL] = -1;
     double first = 1, before = 0, beyond = 0, D = fw_larger(r->deepest[0], r->deepest[last]);
     int    kink = OVER;
@@ -103,7 +117,7 @@ double fw_crush_turn(const fw_cluster *c, const fw_pair *p, const fw_setup *set,
         if (first < 1) beyond = largest_of(beyond, at, kink);
         for (int q = 0; q < N_KINKS; q++) was[q] = at[q];
     }
-    if (!(D > 0) || first == 1) return first * h; /* without D: a touch that was landed on too early */
+    if (first == 1) return h;
     for (int k = 0; k < PROBES / 2; k++) {
         probe(&o, first * k / (PROBES / 2), at);
         before = largest_of(before, at, kink);
@@ -126,6 +140,8 @@ double fw_crush_error(const fw_cluster *c, fw_pair *p, const fw_setup *set, doub
         double slip = fabs(p->slip[s]) + no_slip * set->velocity_scale, N = p->normal[s], b = r->chord[s], D = fw_larger(p->depth[s], r->deepest[s]);
         if (!(N > 0) || !(b > 0)) continue;
         double weight = 0.5 * h / b, damping = N < r->yield[s] ? fw_rim_damping(r, D, r->yield[s]) : 0; /* ice that crushes has the pressure it has */
+        /* In steps much longer than m / c force is what balance of momentum leaves, not what the line makes of a velocity that is off. */
+        damping = fw_smaller(damping, LONG / h * r->mass);
         load += weight * N * slip;
         wrong += weight * (damping * en * slip + N * et);
     }
@@ -149,11 +165,13 @@ static double work_of_push(const fw_rim *r, double a, double b)
     return sum * (high - low);
 }
 
-/* dU/dD at fixed d, U = N^2 D / (2 kappa F(D)). */
+/* dU/dD at fixed d, U = N^2 / 2S. */
 static double store_by_place(const fw_rim *r, double depth, double D, double F)
 {
-    double b, eps = 1e-4 * D, dF = (fw_rim_force(r, D + eps, &b) - fw_rim_force(r, D - eps, &b)) / (2 * eps);
-    double S = r->kappa * F / D, N = fw_rim_line(r, depth, D, F), dS = r->kappa * (dF - F / D) / D, dN = dF * N / F - S * depth / D;
+    if (!(D > FW_CRUSH_ELASTIC)) return 0;
+    double b, eps = 1e-4 * D, more = fw_rim_force(r, D + eps, &b), less = fw_rim_force(r, D - eps, &b), S = fw_rim_stiffness(r, D, F);
+    double dS = (fw_rim_stiffness(r, D + eps, more) - fw_rim_stiffness(r, D - eps, less)) / (2 * eps);
+    double N = fw_rim_line(r, depth, D, F), dN = (more - less) / (2 * eps) - S - dS * (D - depth);
     return N > 0 ? N / S * dN - 0.5 * N * N / (S * S) * dS : 0;
 }
 
@@ -161,7 +179,7 @@ static double store_by_place(const fw_rim *r, double depth, double D, double F)
 static bool is_push_from_end_to_end(const fw_pair *p, size_t last)
 {
     const fw_rim *r = p->rim;
-    bool          is_push = p->depth[last] > 0;
+    bool          is_push = true;
     for (size_t s = 1; s <= last; s++) is_push &= p->depth[s] >= r->deepest[s];
     return is_push;
 }
@@ -174,16 +192,18 @@ void fw_crush_weigh(fw_cluster *c, const fw_method *me, fw_pair *p, double h, fw
     double        jx = 0, jy = 0, spin = 0, push = 0, friction = 0, rolling = 0, turned = 0, way = 0, per_way = 0, n_flat = 0, beyond = 0;
     double        dashpot = 0, dropped = 0, damping = 0;
     bool          is_damped = true; /* at all stages, alike */
+    bool          is_push = is_push_from_end_to_end(p, last);
     for (size_t s = 0; s <= last; s++) {
         double hb = h * me->b[s], n = p->normal[s], f = p->friction[s], M = r->moment[s], D = r->deepest[s], d = p->depth[s], w = p->rate[s];
-        double along = f - M * r->lever[s], elastic = d > 0 ? r->yield[s] : 0;
+        double along = f - M * r->lever[s], elastic = r->yield[s];
         jx += hb * (n * p->dir[s][0] - along * p->dir[s][1]), jy += hb * (n * p->dir[s][1] + along * p->dir[s][0]);
         spin += hb * (f - M / a->radius), push += hb * n;
         friction -= hb * f * p->slip[s], rolling -= hb * M * r->turning[s];
-        if (D > 0 && d <= D) {
+        if (d <= D) {
             double per = store_by_place(r, d, D, r->yield[s]), dD = -hb * r->slope[s] * a->radius * r->turning[s];
             turned -= per * dD, way += dD, per_way += per, n_flat++;
-            elastic = fw_larger(0, fw_rim_line(r, d, D, r->yield[s]));
+            /* a touch that begins a push: D0 is behind it in no time, and all of it is work of the push */
+            elastic = is_push ? n : fw_larger(0, fw_rim_line(r, d, D, r->yield[s]));
         }
         if (n > 0)
             dashpot += hb * (n - elastic) * w;
@@ -197,7 +217,6 @@ void fw_crush_weigh(fw_cluster *c, const fw_method *me, fw_pair *p, double h, fw
     }
     p->is_lawful = beyond <= 0;
     double d0 = p->depth[0], d1 = p->depth[last], D1 = r->deepest[last], stored = fw_rim_stored(r, d1, D1) - r->stored;
-    bool   is_push = is_push_from_end_to_end(p, last);
     if (is_push)
         turned = 0;
     else if (n_flat > 0) /* D has corners where imprints meet, and a push may end the step: by how much D has changed is known, so the mean is put right */
@@ -222,7 +241,7 @@ void fw_crush_weigh(fw_cluster *c, const fw_method *me, fw_pair *p, double h, fw
                                               : 0;
 }
 
-void fw_crush_interval(const fw_pair *p, size_t n_stages, fw_wear_interval *iv)
+double fw_crush_interval(const fw_pair *p, size_t n_stages, fw_wear_interval *iv)
 {
     const fw_rim *r = p->rim;
     size_t        last = n_stages - 1;
@@ -236,6 +255,17 @@ void fw_crush_interval(const fw_pair *p, size_t n_stages, fw_wear_interval *iv)
         iv->depth[end] = is_deeper ? p->depth[s] : r->deepest[s];
         iv->rate[end] = is_deeper ? p->rate[s] : -r->slope[s] * r->radius * r->turning[s];
     }
+    if (iv->is_push) return INFINITY;
+    /* Below zero the line is as steep as above: 1e-5 m off the rim it stands 1e5 N below, and a polynomial that begins at 1 N bulges to as many above. */
+    double most = 0;
+    size_t first = last, n_pressed = 0;
+    for (size_t s = 0; s < n_stages; s++) {
+        most = fw_larger(most, iv->normal[s]), n_pressed += iv->normal[s] > 0;
+        if (s > 0 && iv->at[s] < iv->at[first]) first = s;
+    }
+    if (n_pressed == 1 && iv->normal[0] > 0) return iv->length * iv->at[first] * iv->normal[0] / (iv->normal[0] - iv->normal[first]);
+    for (size_t s = 0; s < n_stages; s++) iv->normal[s] = fw_larger(iv->normal[s], -most);
+    return INFINITY;
 }
 
 /* --- memory ----------------------------------------------------------------------------------------------------------- */
@@ -245,6 +275,7 @@ static void leave_imprint(fw_cluster *c, fw_pair *p, size_t last, double h)
     fw_rim *r = p->rim;
     course  o = course_of(c, p, last, h);
     r->stored = fw_rim_stored(r, p->depth[last], r->deepest[last]);
+    r->load = p->load;
     if (p->rate[0] > 0 || p->rate[last] > 0) {
         /* A push that turns meanwhile leaves its imprints side by side. Where d falls (a floe rolls over fresh rim, slower and slower) nothing is written: on
          * each imprint it would be on the flat again, for an instant, and those instants have no smallest one. */

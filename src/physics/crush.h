@@ -19,6 +19,17 @@
 /* Pressure-area laws are fitted to areas of 0.01 m2 and more. On smaller ones p stays: carried on, p ~ A^-0.7 lets a floe of 10 t rest on 1e-12 m. */
 #define FW_CRUSH_LEAST_AREA 0.01 /* [m2] */
 
+/* Ice is elastic before it crushes: no place of a rim has a deepest overlap of less than D0, up to which its line goes to N = 0 at d = 0, kappa = 1. The chord
+ * b0 at which a line contact of plane-strain modulus E comes to a mean pressure p is 16 p R* / (pi E) (Hertz: (b / 2)^2 = 4 N R* / (pi h E)), which two circles
+ * have at D0 = b0^2 / (8 R*) = 32 R* (p / (pi E))^2: 2 to 8e-8 m at 1.1 MPa, 10 GPa, R* of 0.5 to 2 m. */
+#define FW_CRUSH_ELASTIC 3e-8 /* D0 [m] */
+
+/* kappa of a place where D was deepest. Crushing moves the end of the line, D (1 - 1/kappa), on from 0, by 1 - 1/kappa of the way past D0. */
+static inline double fw_crush_kappa(double kappa, double D)
+{
+    return D > FW_CRUSH_ELASTIC ? 1 / (1 - (1 - 1 / kappa) * (1 - FW_CRUSH_ELASTIC / D)) : 1;
+}
+
 /* Force that an area b h [m2] carries while it crushes [N], and its pressure [Pa]. */
 double fw_crush_force(const fw_pressure_law *p, double area);
 double fw_crush_pressure(const fw_pressure_law *p, double area);
