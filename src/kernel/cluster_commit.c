@@ -13,6 +13,11 @@ static void take_force_back(fw_cluster *c, const fw_pair *p, size_t last)
     double     fx = n * p->dir[last][0] - f * p->dir[last][1], fy = n * p->dir[last][1] + f * p->dir[last][0];
     a->k[0][FW_VX] -= fx * a->own_inv_mass, a->k[0][FW_VY] -= fy * a->own_inv_mass, a->k[0][FW_SPIN] += f * a->turn;
     b->k[0][FW_VX] += fx * b->own_inv_mass, b->k[0][FW_VY] += fy * b->own_inv_mass, b->k[0][FW_SPIN] += f * b->turn;
+    const fw_rim *r = fw_rim_of(p);
+    if (!r) return;
+    double along = r->moment[last] * r->lever[last]; /* of the flat's moment */
+    a->k[0][FW_VX] -= along * p->dir[last][1] * a->own_inv_mass, a->k[0][FW_VY] += along * p->dir[last][0] * a->own_inv_mass;
+    a->k[0][FW_SPIN] -= r->moment[last] / a->radius * a->turn;
 }
 
 static fw_status watch_contact(const fw_cluster *c, const fw_books *books, const fw_pair *p, size_t last, bool is_lone, fw_msg *msg)
