@@ -86,12 +86,13 @@ void fw_event_fly(fw_kernel *k, int32_t i, double t)
     fw_place at = fw_path_at(&p, t);
     fw_ledger *l = &k->traffic.world->ledger;
     l->drag_work += 0.5 * (at.vx * at.vx + at.vy * at.vy - b->vx * b->vx - b->vy * b->vy) / b->inv_mass;
+    double turned = b->spin * (t - b->t);
     if (b->spin_drag > 0 && b->inv_inertia > 0) {
-        double spin = fw_flight_spin(b, p.r, p.K, t - b->t);
+        double spin = fw_flight_spin(b, p.r, p.K, t - b->t, &turned);
         l->drag_work += 0.5 * (spin * spin - b->spin * b->spin) / b->inv_inertia;
         b->spin = spin;
     }
-    if (fw_is_crush(&k->traffic.setup)) b->angle += b->spin * (t - b->t);
+    if (fw_is_crush(&k->traffic.setup)) b->angle += turned;
     b->x = at.x, b->y = at.y, b->vx = at.vx, b->vy = at.vy, b->t = t;
 }
 

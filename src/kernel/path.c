@@ -94,11 +94,12 @@ fw_place fw_path_at(const fw_path *p, double t)
     return at;
 }
 
-double fw_flight_spin(const fw_body *b, double r, double K, double t)
+double fw_flight_spin(const fw_body *b, double r, double K, double t, double *turned)
 {
     /* dw/dt = -q w sqrt((3 V / 4)^2 + (2 R w / 5)^2), q = coefficient R^2 / I, V = r / (1 + K r t): ln w is smooth. Classical fourth
-     * order, in steps within which neither V nor w changes by more than a tenth. */
+     * order, in steps within which neither V nor w changes by more than a tenth; the angle by Simpson, ln w in the middle as the same four slopes have it. */
     double q = b->spin_drag * b->inv_inertia, w = b->spin, done = 0;
+    *turned = 0;
     while (done < t) {
         double V = r / (1 + K * r * done), rate = fw_skin_drag_torque_rate(q, b->radius, V, w), h = fw_smaller(t - done, 0.1 / (rate + K * V + 1e-300));
         double k[4], at[4] = {0, 0.5 * h, 0.5 * h, h};
@@ -106,7 +107,9 @@ double fw_flight_spin(const fw_body *b, double r, double K, double t)
             double now = w * exp(j ? k[j - 1] * at[j] : 0);
             k[j] = -fw_skin_drag_torque_rate(q, b->radius, r / (1 + K * r * (done + at[j])), now);
         }
+        double was = w, middle = w * exp(h / 24 * (5 * k[0] + 4 * k[1] + 4 * k[2] - k[3]));
         w *= exp(h / 6 * (k[0] + 2 * k[1] + 2 * k[2] + k[3]));
+        *turned += h / 6 * (was + 4 * middle + w);
         done = t - done <= h ? t : done + h;
     }
     return w;

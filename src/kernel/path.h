@@ -30,7 +30,7 @@ fw_path fw_path_of_member(const fw_setup *s, const fw_cluster *c, const fw_membe
 fw_place fw_path_at(const fw_path *p, double t);
 
 /* Spin after a flight of t seconds that began at |v - u| = r [rad/s]: the water on the face slows it, the faster the floe goes through it. */
-double fw_flight_spin(const fw_body *b, double r, double K, double t);
+double fw_flight_spin(const fw_body *b, double r, double K, double t, double *turned); /* by how much it has turned meanwhile [rad] */
 
 /* Gap between the rims (positive: apart) and how fast it closes. */
 void fw_path_gap(const fw_path *a, const fw_path *b, double t, double *gap, double *closing);

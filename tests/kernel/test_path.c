@@ -128,6 +128,29 @@ static void member_of_a_cluster(void **state)
     }
 }
 
+/* dw/dt = -q R^2 w sqrt((3 V / 4)^2 + (2 R w / 5)^2), V = r / (1 + K r t): spin alone is w0 / (1 + c w0 t), c = 2/5 q R^3, and turns by ln(1 + c w0 t) / c;
+ * both together by the midpoint rule, in steps of 1/200000 of the flight. */
+static void spin_of_a_flight(void **state)
+{
+    (void)state;
+    double R = 2.5, turned;
+    for (int i = 0; i < 12; i++) {
+        double  t = (double[]){0.3, 20, 200}[i % 3], w0 = i % 2 ? -0.4 : 1.7, q = i < 6 ? 0.01 : 0.2, c = 0.4 * q * R * R * R;
+        fw_body b = {.radius = R, .spin = w0, .spin_drag = q * 300, .inv_inertia = 1.0 / 300};
+        CHECK_RELATIVE(fw_flight_spin(&b, 0, 0.05, t, &turned), w0 / (1 + c * fabs(w0) * t), 1e-6);
+        CHECK_RELATIVE(turned, (w0 > 0 ? 1 : -1) * log(1 + c * fabs(w0) * t) / c, 1e-6);
+        enum { N = 200000 };
+        double r = 0.8, K = 0.05, h = t / N, w = w0, angle = 0;
+        for (int n = 0; n < N; n++) {
+            double V = r / (1 + K * r * n * h), V1 = r / (1 + K * r * (n + 0.5) * h);
+            double half = w - 0.5 * h * q * R * R * w * hypot(0.75 * V, 0.4 * R * w);
+            w -= h * q * R * R * half * hypot(0.75 * V1, 0.4 * R * half), angle += h * half;
+        }
+        CHECK_NEAR(fw_flight_spin(&b, r, K, t, &turned), w, 1e-6 * fabs(w0));
+        CHECK_RELATIVE(turned, angle, 2e-6);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(root_of_cubic),
@@ -135,6 +158,7 @@ int main(void)
                                        cmocka_unit_test(free_flight),
                                        cmocka_unit_test(slow_approach),
                                        cmocka_unit_test(undisturbed_drift_is_exact),
+                                       cmocka_unit_test(spin_of_a_flight),
                                        cmocka_unit_test(member_of_a_cluster)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
