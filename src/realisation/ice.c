@@ -19,7 +19,7 @@ fw_status fw_ice_add_tile(fw_ice *ice, fw_world *w, int64_t column, int64_t row,
     const fw_tile *t;
     FW_TRY(fw_field_tile(ice->field, column, row, &t, m));
     FW_TRY(fw_world_add_block(w, t->n_floes, t->x, t->y, t->radius, t->thickness, ice->n_named, m));
-    ice->n_named += t->n_floes;
+    ice->n_named += t->n_floes ? t->n_floes : 1; /* names of blocks are their own, empty ones' too */
     return FW_OK;
 }
 
