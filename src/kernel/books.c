@@ -35,9 +35,6 @@ static void shove(fw_member *m, double jx, double jy, double rub)
     m->shoved += fw_length(jx, jy) * m->own_inv_mass, m->twisted += fabs(rub * m->turn);
 }
 
-/* What keeps a locked floe's spin up against friction works, too: R Ft w. Of an impulse of friction. */
-static double held(const fw_member *m, double rub) { return m->inertia > 0 ? 0 : rub * m->radius * m->y0[FW_SPIN]; }
-
 static inline __attribute__((always_inline)) void weigh_pair(fw_cluster *c, const fw_method *me, fw_pair *p, double h, fw_step_books *to)
 {
     fw_member *a = &c->members[p->a], *b = p->b == FW_WALL ? NULL : &c->members[p->b];
@@ -67,7 +64,7 @@ static inline __attribute__((always_inline)) void weigh_pair(fw_cluster *c, cons
     to->dashpot += dashpot, to->dropped += dropped, to->friction += friction;
     to->stored += stored, to->into_springs += fw_larger(0, stored);
     shove(a, jx, jy, rub);
-    to->drag_work += held(a, rub) + (b ? held(b, rub) : 0);
+    to->drag_work += fw_member_held(a, rub) + (b ? fw_member_held(b, rub) : 0);
     if (b) {
         shove(b, -jx, -jy, rub);
         return;

@@ -66,6 +66,9 @@ typedef struct fw_pair {
     int8_t  jumped; /* slip went from cap to cap of friction in the step before, up or down: watch.c */
 } fw_pair;
 
+/* What keeps a locked floe's spin up against friction works, too: R Ft w. Of an impulse of friction. */
+static inline double fw_member_held(const fw_member *m, double rub) { return m->inertia > 0 ? 0 : rub * m->radius * m->y0[FW_SPIN]; }
+
 /* What the crushing contact of a pair remembers; NULL: a spring's. */
 static inline struct fw_rim *fw_rim_of(const fw_pair *p) { return FW_OPTIONAL_EFFECTS ? p->rim : NULL; }
 

@@ -189,7 +189,7 @@ void fw_crush_weigh(fw_cluster *c, const fw_method *me, fw_pair *p, double h, fw
     const fw_rim *r = p->rim;
     fw_member    *a = &c->members[p->a];
     size_t        last = me->n_stages - 1;
-    double        jx = 0, jy = 0, spin = 0, push = 0, friction = 0, rolling = 0, turned = 0, way = 0, per_way = 0, n_flat = 0, beyond = 0;
+    double        jx = 0, jy = 0, spin = 0, rub = 0, push = 0, friction = 0, rolling = 0, turned = 0, way = 0, per_way = 0, n_flat = 0, beyond = 0;
     double        dashpot = 0, dropped = 0, damping = 0;
     bool          is_damped = true; /* at all stages, alike */
     bool          is_push = is_push_from_end_to_end(p, last);
@@ -197,7 +197,7 @@ void fw_crush_weigh(fw_cluster *c, const fw_method *me, fw_pair *p, double h, fw
         double hb = h * me->b[s], n = p->normal[s], f = p->friction[s], M = r->moment[s], D = r->deepest[s], d = p->depth[s], w = p->rate[s];
         double along = f - M * r->lever[s], elastic = r->yield[s];
         jx += hb * (n * p->dir[s][0] - along * p->dir[s][1]), jy += hb * (n * p->dir[s][1] + along * p->dir[s][0]);
-        spin += hb * (f - M / a->radius), push += hb * n;
+        spin += hb * (f - M / a->radius), rub += hb * f, push += hb * n;
         friction -= hb * f * p->slip[s], rolling -= hb * M * r->turning[s];
         if (d <= D) {
             double per = store_by_place(r, d, D, r->yield[s]), dD = -hb * r->slope[s] * a->radius * r->turning[s];
@@ -233,6 +233,7 @@ void fw_crush_weigh(fw_cluster *c, const fw_method *me, fw_pair *p, double h, fw
     to->stored += stored, to->into_springs += fw_larger(0, stored);
     a->gained[0] += jx * a->own_inv_mass, a->gained[1] += jy * a->own_inv_mass, a->gained[2] -= spin * a->turn;
     a->shoved += fw_length(jx, jy) * a->own_inv_mass, a->twisted += fabs(spin * a->turn);
+    to->drag_work += fw_member_held(a, rub);
     to->normal_impulse += push;
     double from = r->line[0], until = r->line[last];
     to->contact_time += from > 0 && until > 0 ? h
