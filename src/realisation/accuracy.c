@@ -83,10 +83,11 @@ void fw_accuracy_setup(fw_setup *s, const fw_model *m, double speed, double velo
     bool is_crush = (m->effects & FW_EFFECT_CRUSH_CONTACT) != 0;
     bool has_friction = (m->effects & FW_EFFECT_FRICTION) != 0, has_drag = (m->effects & FW_EFFECT_FORM_DRAG) != 0;
     double ct = has_friction ? m->slip_damping_ratio : 0; /* over c; beside a friction of 0 it would still be in the rounding */
+    double ct_wall = is_crush && m->crush.has_flat ? m->slip_damping_ratio : ct; /* the flat's moment is none of friction */
     *s = (fw_setup){
         .structure_radius = m->structure_radius,
         .flow = {.ux = speed, .ice_x = speed},
-        .contact = {m->stiffness, m->damping_ratio, has_friction ? m->friction : 0, ct},
+        .contact = {m->stiffness, m->damping_ratio, has_friction ? m->friction : 0, ct_wall},
         .floe_contact = {has_own ? m->floe_stiffness : m->stiffness, m->damping_ratio,
                          !has_friction ? 0 : has_own ? m->floe_friction : m->friction, ct},
         .has_floe_contact = (m->effects & FW_EFFECT_FLOE_CONTACT) != 0,
