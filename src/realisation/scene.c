@@ -93,6 +93,18 @@ static fw_status check(const fw_scene *scene, const fw_frame_sink *frames, doubl
     return FW_OK;
 }
 
+/* What the wind makes of floes that the current leaves behind, or lies still under. */
+static double fastest_drift(const fw_scene *scene, const fw_setup *s)
+{
+    double most = 0, vx, vy;
+    for (size_t i = 0; i < scene->n_floes && s->has_wind; i++) {
+        fw_body b = fw_kernel_floe(s, 0.5 * scene->floes[i].diameter, scene->floes[i].thickness);
+        fw_kernel_free_drift(s, &b, &vx, &vy);
+        most = fmax(most, hypot(vx, vy));
+    }
+    return most;
+}
+
 /* A failed try still shows where it came to. */
 static void fill(const fw_scene *scene, const fw_world *w, fw_wear *wear, fw_scene_result *out)
 {
@@ -128,8 +140,9 @@ static fw_status run_once(const fw_scene *scene, const fw_model *model, double f
     if (model->max_evaluations > 0) setup.max_evaluations = model->max_evaluations;
     fw_scenario sc = {.speed = scene->speed, .wind_speed = scene->wind_speed, .wind_angle = scene->wind_angle, .tide_phase = scene->tide_phase};
     FW_TRY(fw_weather_init(&weather, &setup, model, &sc, 0, scene->duration, -1, m));
-    setup.velocity_scale = fmax(fastest, weather.fastest);
+    setup.velocity_scale = fmax(fmax(fastest, weather.fastest), fastest_drift(scene, &setup));
     if (!(setup.velocity_scale > 0)) setup.velocity_scale = 1e-3; /* nothing moves: any scale will do */
+    if (!(setup.crush_speed > 0)) setup.crush_speed = setup.velocity_scale;
     fw_status s = fw_wear_init(&wear, model->structure_radius, model->n_arcs, model->n_laws, model->laws, m);
     if (s == FW_OK) s = fw_world_create(&w, model->structure_radius, m);
     if (s == FW_OK) s = fw_kernel_create(&k, &setup, m);

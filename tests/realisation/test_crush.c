@@ -223,6 +223,58 @@ static void mirrored_and_locked(void **state)
     fw_scene_result_free(&a), fw_scene_result_free(&b);
 }
 
+/* Locked, a floe that spins rubs on and on, and something keeps its spin up: that works, too (run() looks at the balance). */
+static void locked_and_spinning(void **state)
+{
+    (void)state;
+    fw_floe         f = floe_at(5, 0.9, 0.9, 2);
+    fw_scene        s = crush_scene(&f, 1.1e6, true, 8, 1e-2);
+    fw_scene_result r;
+    f.spin = 1, s.model.effects &= ~(uint32_t)FW_EFFECT_ROTATION;
+    run(&s, &r);
+    assert_true(r.floes[0].spin == 1 && r.path > 10);
+    fw_scene_result_free(&r);
+}
+
+/* The moment is none of friction: beyond the middle a floe on its flat turns with the wall without any, at the orbital rate or near it. */
+static void flat_turns_without_friction(void **state)
+{
+    (void)state;
+    fw_floe         f = floe_at(2.5, 0.5, 0.99, 2);
+    fw_scene        s = crush_scene(&f, 0.5e6, true, 4, 1e-2);
+    fw_scene_result r;
+    double          along, orbit;
+    s.model.effects &= ~(uint32_t)FW_EFFECT_FRICTION;
+    run(&s, &r);
+    motion(&r.floes[0], &along, &orbit);
+    print_message("without friction: spin %.3f, orbit %.3f rad/s\n", r.floes[0].spin, orbit);
+    assert_true(r.floes[0].spin / orbit > 0.5 && r.floes[0].spin / orbit < 1.0001);
+    fw_scene_result_free(&r);
+    s.model.crush.has_flat = false;
+    run(&s, &r);
+    assert_true(r.floes[0].spin == 0);
+    fw_scene_result_free(&r);
+}
+
+/* Wind alone drives a floe against the wall: how fast by its own equation, m v' = a (W - v)^2 - w v^2, how deep by the closed form. */
+static void without_a_current(void **state)
+{
+    (void)state;
+    double          D = 5, h = 0.9, W = 20, m = 900 * PI * D * D / 4 * h, star = 0.5 * D * RS / (0.5 * D + RS), p = 1.1e6;
+    double          air = 0.5 * 1.3 * (0.0018 * PI * D * D / 4 + 1.1 * D * h * (1 - 900.0 / 1025)), water = 0.5 * 1025 * 10 * D * h, v = 0, dt = 1e-3;
+    fw_floe         f = floe_at(D, h, 0, 0);
+    fw_scene        s = crush_scene(&f, p, true, 60, 1e-3);
+    fw_scene_result r;
+    for (double x = 0; x < 0.3; x += dt * v) { /* midpoints */
+        double half = v + 0.5 * dt * (air * (W - v) * (W - v) - water * v * v) / m;
+        v += dt * (air * (W - half) * (W - half) - water * half * half) / m;
+    }
+    s.model.effects |= FW_EFFECT_WIND, s.wind_speed = W;
+    run(&s, &r);
+    CHECK_RELATIVE(r.max_overlap, pow(m * v * v / (8.0 / 3 * sqrt(2 * star) * p * h), 2.0 / 3), 0.01);
+    fw_scene_result_free(&r);
+}
+
 /* --- springs from the pressure ----------------------------------------------------------------------------------------- */
 
 /* Nothing but k changes: the very bits of a scene that is given that k. On the structure v is the current's, m the floe's. */
@@ -322,7 +374,8 @@ static void refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(reference_hits), cmocka_unit_test(error_follows_tolerance), cmocka_unit_test(head_on), cmocka_unit_test(rolls_or_slides),
-                                       cmocka_unit_test(path_with_and_without_flat), cmocka_unit_test(mirrored_and_locked), cmocka_unit_test(stiffness_from_pressure),
+                                       cmocka_unit_test(path_with_and_without_flat), cmocka_unit_test(mirrored_and_locked), cmocka_unit_test(locked_and_spinning),
+                                       cmocka_unit_test(flat_turns_without_friction), cmocka_unit_test(without_a_current), cmocka_unit_test(stiffness_from_pressure),
                                        cmocka_unit_test(windows_keep_the_laws), cmocka_unit_test(off_is_absent), cmocka_unit_test(refusals)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
