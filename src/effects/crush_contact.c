@@ -1,5 +1,6 @@
 #include <stdio.h>
 
+#include "effects/friction.h"
 #include "effects/rows.h"
 
 static bool is_needed(const fw_model *m, const fw_scene_facts *f, char *reason)
@@ -38,7 +39,11 @@ static const char *refuse(const fw_model *m, const fw_scene_facts *f, const char
     if (!is_on && fw_effects_given(f, FW_GIVEN_LAW_CRUSH)) return "this key says crush, and effects switch off crush_contact";
     *key = "current.speed";
     if (m->stiffness_from_pressure && !(f->speed.high > 0)) return "contact.stiffness: from_pressure goes with the current's speed to the -2/3, and there is no current";
-    return is_on ? NULL : refuse_beside_spring(m, f, key);
+    if (!is_on) return refuse_beside_spring(m, f, key);
+    *key = "contact.flat";
+    if (fw_effects_given(f, FW_GIVEN_FLAT) && m->crush.has_flat && !fw_friction_flat_turns(m))
+        return "the flat's moment is viscous below its cap, by slip_damping_ratio times the dashpot, and that is 0";
+    return NULL;
 }
 
 const fw_effect fw_effect_crush_contact = {

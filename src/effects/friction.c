@@ -11,6 +11,8 @@ double fw_friction_largest(const fw_model *m, const fw_scene_facts *f)
 
 static bool has_viscous_part(const fw_model *m) { return m->slip_damping_ratio > 0 && m->damping_ratio > 0; }
 
+bool fw_friction_flat_turns(const fw_model *m) { return m->crush.has_flat && has_viscous_part(m); }
+
 static bool is_needed(const fw_model *m, const fw_scene_facts *f, char *reason)
 {
     double mu = fw_friction_largest(m, f);

@@ -1,16 +1,18 @@
 #include <stdio.h>
 
+#include "effects/friction.h"
 #include "effects/rows.h"
 
 static bool is_needed(const fw_model *m, const fw_scene_facts *f, char *reason)
 {
     char why[FW_REASON_SIZE];
-    bool it_is = fw_effect_friction.is_needed(m, f, why);
+    bool rubs = fw_effect_friction.is_needed(m, f, why), has_flat = fw_effects_given(f, FW_GIVEN_LAW_CRUSH) && fw_friction_flat_turns(m);
     snprintf(reason, FW_REASON_SIZE,
-             it_is ? "friction turns floes until they roll; locked they wear 43 and 4 times more (2.5 m floe, 1 m and 3 m off the middle)"
-                   : "nothing turns a floe without friction (coefficient %g)",
+             rubs       ? "friction turns floes until they roll; locked they wear 43 and 4 times more (2.5 m floe, 1 m and 3 m off the middle)"
+             : has_flat ? "the flat of ice that crushes turns floes along the wall, without friction too (coefficient %g)"
+                        : "nothing turns a floe without friction (coefficient %g)",
              m->friction);
-    return it_is;
+    return rubs || has_flat;
 }
 
 static const char *refuse(const fw_model *m, const fw_scene_facts *f, const char **key)
@@ -30,7 +32,7 @@ const fw_effect fw_effect_rotation = {
     .source = "rigid disc; the source paper does not say whether its floes turn",
     .range = "discs; a floe with corners or a flat turns less easily (crush_contact has a flat)",
     .limit = "without torque spin is constant; sliding ends on a rolling floe, slip impulse J/m + J R^2/I = 3 J/m",
-    .needed = "needed with friction: a locked floe slides all the way and wears 3 to 43 times more",
+    .needed = "needed with friction, or a flat: a locked floe slides all the way and wears 3 to 43 times more",
     .off = "spin is locked at its start",
     .is_needed = is_needed,
     .refuse = refuse,

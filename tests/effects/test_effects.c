@@ -125,6 +125,21 @@ static void form_drag_says_how_soon(void **state)
     assert_false(needed("form_drag", &m, &FIELD));
 }
 
+static void a_flat_turns_floes(void **state)
+{
+    (void)state;
+    fw_model       m = model();
+    fw_scene_facts f = FIELD;
+    m.friction = 0;
+    assert_false(needed("rotation", &m, &f));
+    f.given = FW_GIVEN_LAW_CRUSH;
+    assert_true(needed("rotation", &m, &f));
+    m.crush.has_flat = false;
+    assert_false(needed("rotation", &m, &f));
+    m.crush.has_flat = true, m.slip_damping_ratio = 0;
+    assert_false(needed("rotation", &m, &f));
+}
+
 static void wind_needs_a_speed(void **state)
 {
     (void)state;
@@ -310,6 +325,8 @@ static void numbers_that_mean_nothing(void **state)
     REFUSED((m.effects |= FW_EFFECT_WIND, m.wind.skin_drag = m.wind.form_drag = 0), &f, "wind");
     f.given = FW_GIVEN_FLAT;
     REFUSED(m.crush.has_flat = false, &f, NULL); /* flat: off says what a spring does */
+    REFUSED((m.effects = (m.effects | FW_EFFECT_CRUSH_CONTACT) & ~(uint32_t)FW_EFFECT_FRICTION, m.slip_damping_ratio = 0), &f, "contact.flat");
+    REFUSED((m.effects = (m.effects | FW_EFFECT_CRUSH_CONTACT) & ~(uint32_t)FW_EFFECT_FRICTION, m.friction = 0), &f, NULL);
 }
 
 int main(void)
@@ -319,6 +336,7 @@ int main(void)
         cmocka_unit_test(auto_follows_the_scene),
         cmocka_unit_test(floe_contact_wants_company),
         cmocka_unit_test(form_drag_says_how_soon),
+        cmocka_unit_test(a_flat_turns_floes),
         cmocka_unit_test(wind_needs_a_speed),
         cmocka_unit_test(those_that_must_be_asked_for),
         cmocka_unit_test(tide_wants_a_tide),
