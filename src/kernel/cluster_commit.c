@@ -70,7 +70,7 @@ fw_status fw_cluster_commit(fw_cluster *c, const fw_books *books, int32_t *opene
     } else {
         fw_books_keep(c, books);
         fw_books_wear(c, books);
-        fw_watch_slip(c, &books->world->ledger, last);
+        fw_watch_slip(c, books->setup, &books->world->ledger);
     }
     books->world->ledger.steps++;
     c->t0 = c->t1;

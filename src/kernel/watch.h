@@ -11,7 +11,7 @@ bool fw_watch_step(const fw_cluster *c, const fw_setup *set, double h);
 /* +-1: slip goes from one cap of friction, or this share of it, to the other between two instants of a contact, up or down; 0: no such jump. */
 int  fw_watch_jump(const fw_contact_constants *law, double share, double slip0, double normal0, double slip1, double normal1);
 /* The committed step: remembers jumps of slip, counts those that went to and fro. */
-void fw_watch_slip(fw_cluster *c, fw_ledger *l, size_t last);
+void fw_watch_slip(fw_cluster *c, const fw_setup *set, fw_ledger *l);
 
 /* A floe after a step: finite, its centre outside the structure. FW_E_NUMERIC names it, and when. */
 fw_status fw_watch_body(const fw_setup *set, const fw_body *b, fw_msg *m);
