@@ -14,6 +14,16 @@ enum { TIME, FACTOR, TURN, N_COLUMNS };
 
 static const fw_csv_column COLUMNS[N_COLUMNS] = {{"time", "s", false}, {"factor", "1", false}, {"turn", "deg", false}};
 
+/* A current turns or changes by its whole speed in this time at the quickest [s]: as the shortest tide does, 60 s over 2 pi. A window is cut in
+ * pieces that follow the quickest change. */
+static const double QUICKEST = 60 / (2 * 3.14159265358979323846);
+
+static double time_to_change(const double *before, const double *row)
+{
+    double larger = fmax(fabs(before[FACTOR]), fabs(row[FACTOR]));
+    return QUICKEST * hypot(row[FACTOR] - before[FACTOR], larger * (row[TURN] - before[TURN]) * DEGREE);
+}
+
 static fw_status check_row(const fw_csv *t, size_t i, fw_msg *m)
 {
     const double *row = t->cells + i * N_COLUMNS, *before = i ? row - N_COLUMNS : NULL;
@@ -26,6 +36,11 @@ static fw_status check_row(const fw_csv *t, size_t i, fw_msg *m)
     CHECK_ROW(fabs(row[FACTOR]) <= 100, FACTOR, "", "-100 to 100 times the current's speed");
     CHECK_ROW(fabs(row[TURN]) <= 7200, TURN, " deg", "-7200 deg to 7200 deg");
 #undef CHECK_ROW
+    if (!before) return FW_OK;
+    double least = time_to_change(before, row) * (1 - 1e-9);
+    FW_CHECK(row[TIME] - before[TIME] >= least, m, FW_E_INPUT,
+             "%.200s:%zu: time = %g s, wanted at least %.4g s after the row before: for factor %g to %g and turn %g deg to %g deg, no quicker than a tide of 60 s",
+             t->path, t->line[i], row[TIME], least, before[FACTOR], row[FACTOR], before[TURN], row[TURN]);
     return FW_OK;
 }
 
@@ -38,7 +53,8 @@ static fw_status read_course(const fw_reader *r, const fw_node *at, fw_tide *tid
     FW_TRY(fw_csv_read(r, at, "current.course", file, N_COLUMNS, COLUMNS, &t));
     fw_status status = FW_OK;
     if (t.n_rows < 2 || t.n_rows > FW_MAX_COURSE)
-        status = fw_fail(r->m, FW_E_INPUT, "%.200s: %zu rows, wanted 2 to %d", t.path, t.n_rows, FW_MAX_COURSE);
+        status = fw_fail(r->m, FW_E_INPUT, "%.200s:%zu: the table has %zu row%s, wanted 2 to %d", t.path, t.line[t.n_rows - 1], t.n_rows,
+                         t.n_rows == 1 ? "" : "s", FW_MAX_COURSE);
     for (size_t i = 0; i < t.n_rows && status == FW_OK; i++) status = check_row(&t, i, r->m);
     if (status == FW_OK) status = fw_alloc(&tide->rows, t.n_rows, sizeof *tide->rows, "course of the current", r->m);
     for (size_t i = 0; i < t.n_rows && status == FW_OK; i++) {

@@ -3,6 +3,8 @@
 
 #include "effects/rows.h"
 
+static const double FASTEST = 20; /* [m/s], of any current, as current.speed is checked */
+
 static bool is_given(const fw_scene_facts *f) { return fw_effects_given(f, FW_GIVEN_TIDE) || fw_effects_given(f, FW_GIVEN_COURSE); }
 
 static bool is_needed(const fw_model *m, const fw_scene_facts *f, char *reason)
@@ -14,7 +16,7 @@ static bool is_needed(const fw_model *m, const fw_scene_facts *f, char *reason)
     }
     if (t->n_rows == 0) {
         snprintf(reason, FW_REASON_SIZE, "a window of %.3g h is %.3g deg of the tide's %.4g h, minor over major axis %.3g", m->window / 3600, 360 * m->window / t->period,
-                 t->period / 3600, t->minor_ratio);
+                 t->period / 3600, t->minor_ratio + 0.0); /* -0 + 0 = 0 */
         return true;
     }
     double least = INFINITY, most = -INFINITY, left = INFINITY, right = -INFINITY;
@@ -22,7 +24,8 @@ static bool is_needed(const fw_model *m, const fw_scene_facts *f, char *reason)
         least = fmin(least, t->rows[i].factor), most = fmax(most, t->rows[i].factor);
         left = fmin(left, t->rows[i].turn), right = fmax(right, t->rows[i].turn);
     }
-    snprintf(reason, FW_REASON_SIZE, "current.course of %zu rows: %.3g to %.3g times the speed, turning through %.3g deg", t->n_rows, least, most,
+    snprintf(reason, FW_REASON_SIZE, "current.course of %zu rows, %.4g to %.4g h of a window of %.4g h: %.3g to %.3g times the speed, turning through %.3g deg",
+             t->n_rows, t->rows[0].time / 3600, t->rows[t->n_rows - 1].time / 3600, m->window / 3600, least + 0.0, most + 0.0,
              (right - left) * 180 / 3.14159265358979323846);
     return true;
 }
@@ -34,12 +37,33 @@ static bool is_constant(const fw_tide *t)
     return t->n_rows > 0;
 }
 
+/* Largest current of a course over the scenario's speed. */
+static double largest_factor(const fw_tide *t)
+{
+    double most = 0;
+    for (size_t i = 0; i < t->n_rows; i++) most = fmax(most, fabs(t->rows[i].factor));
+    return most;
+}
+
+/* Choices of a course that make no current, or none that the window sees change. */
+static const char *refuse_course(const fw_model *m, const fw_scene_facts *f)
+{
+    const fw_tide *t = &m->tide;
+    double         most = largest_factor(t);
+    if (is_constant(t)) return "factor 1 and turn 0 in every row: the current would not change";
+    if (!(most > 0)) return "factor 0 in every row: there would be no current";
+    if (t->n_rows && t->rows[0].time >= m->window) return "its first row lies behind the window's end: the current would not change; is time in the unit that was meant?";
+    if (isfinite(f->speed.high) && most * f->speed.high > FASTEST) return "factor times current.speed reaches above 20 m/s, wanted at most that";
+    return NULL;
+}
+
 static const char *refuse(const fw_model *m, const fw_scene_facts *f, const char **key)
 {
     *key = "current.course";
     if (fw_effects_given(f, FW_GIVEN_TIDE) && fw_effects_given(f, FW_GIVEN_COURSE)) return "current.tide says already how the current changes, wanted one of them";
     if (!fw_effects_have(m, FW_EFFECT_TIDE)) return NULL;
-    if (fw_effects_given(f, FW_GIVEN_COURSE) && is_constant(&m->tide)) return "factor 1 and turn 0 in every row: the current would not change";
+    const char *why = fw_effects_given(f, FW_GIVEN_COURSE) ? refuse_course(m, f) : NULL;
+    if (why) return why;
     *key = "effects";
     if (!is_given(f)) return "tide is switched on, but there is neither current.tide nor current.course";
     *key = "current.speed";

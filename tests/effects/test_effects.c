@@ -201,9 +201,12 @@ static void tide_wants_a_tide(void **state)
     f.given = FW_GIVEN_TIDE;
     assert_true(needed("tide", &m, &f));
     assert_non_null(strstr(REASON, "3 h is 87 deg")); /* 360 x 3 / 12.42 */
+    m.tide.minor_ratio = -0.0;
+    assert_true(needed("tide", &m, &f));
+    assert_null(strchr(REASON, '-'));
     f.given = FW_GIVEN_COURSE, m.tide.n_rows = 2, m.tide.rows = rows;
     assert_true(needed("tide", &m, &f));
-    assert_non_null(strstr(REASON, "0.25 to 1 times the speed, turning through 60 deg"));
+    assert_non_null(strstr(REASON, "2 rows, 0 to 1 h of a window of 3 h: 0.25 to 1 times the speed, turning through 60 deg"));
 }
 
 static void ice_on_ice_must_differ_and_meet(void **state)
@@ -317,6 +320,10 @@ static void numbers_that_mean_nothing(void **state)
     REFUSED((m.effects |= FW_EFFECT_TIDE, m.tide.n_rows = 2, m.tide.rows = rows), &f, "current.course");
     rows[1].turn = 0.1;
     REFUSED((m.effects |= FW_EFFECT_TIDE, m.tide.n_rows = 2, m.tide.rows = rows), &f, NULL);
+    REFUSED((m.effects |= FW_EFFECT_TIDE, m.tide.n_rows = 2, m.tide.rows = rows, rows[0].factor = rows[1].factor = 0), &f, "current.course");
+    REFUSED((m.effects |= FW_EFFECT_TIDE, m.tide.n_rows = 2, m.tide.rows = rows, rows[0].factor = -1.001 * 20 / f.speed.high), &f, "current.course");
+    REFUSED((m.effects |= FW_EFFECT_TIDE, m.tide.n_rows = 2, m.tide.rows = rows, rows[0].factor = -0.999 * 20 / f.speed.high), &f, NULL);
+    REFUSED((m.effects |= FW_EFFECT_TIDE, m.tide.n_rows = 2, m.tide.rows = rows, rows[0].time = m.window, rows[1].time = 2 * m.window), &f, "current.course");
     still.given = FW_GIVEN_TIDE;
     REFUSED(m.effects |= FW_EFFECT_TIDE, &still, "current.speed");
     f.given = FW_GIVEN_WIND | FW_GIVEN_WIND_SPEED;
