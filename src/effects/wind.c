@@ -28,15 +28,28 @@ static double drift_share(const fw_model *m, const fw_scene_facts *f, double asp
     return fw_wind_free_drift(fw_wind_drag(&m->wind, m->ice_density, m->water_density, 1, aspect), water, 1);
 }
 
-static bool acts(const fw_model *m) { return m->wind.skin_drag > 0 || m->wind.form_drag > 0; }
+/* Ice that does not float has no freeboard. */
+static bool acts(const fw_model *m) { return m->wind.skin_drag > 0 || (m->wind.form_drag > 0 && m->ice_density < m->water_density); }
+
+/* "of 10 m/s", "of 2 to 20 m/s"; a law without an upper end: "of 2 m/s and more" */
+static void say_speed(char text[64], const fw_range *r)
+{
+    if (isinf(r->high))
+        snprintf(text, 64, "of %.3g m/s and more", r->low);
+    else if (r->high > r->low)
+        snprintf(text, 64, "of %.3g to %.3g m/s", r->low, r->high);
+    else
+        snprintf(text, 64, "of %.3g m/s", r->low);
+}
 
 static bool is_needed(const fw_model *m, const fw_scene_facts *f, char *reason)
 {
     bool it_is = fw_effects_given(f, FW_GIVEN_WIND_SPEED) && f->wind_speed.high > 0 && acts(m);
     if (it_is) {
         double a = drift_share(m, f, f->aspect.low), b = drift_share(m, f, f->aspect.high);
-        snprintf(reason, FW_REASON_SIZE, "wind of %.3g to %.3g m/s: floes drift through the water by %.2g to %.2g %% of it", f->wind_speed.low,
-                 f->wind_speed.high, 100 * fmin(a, b), 100 * fmax(a, b));
+        char   of[64];
+        say_speed(of, &f->wind_speed);
+        snprintf(reason, FW_REASON_SIZE, "wind %s: floes drift through the water by %.2g to %.2g %% of it", of, 100 * fmin(a, b), 100 * fmax(a, b));
     } else {
         snprintf(reason, FW_REASON_SIZE, "%s", fw_effects_given(f, FW_GIVEN_WIND_SPEED) ? "wind.speed = 0, or no drag of the air" : "no wind.speed");
     }
@@ -53,7 +66,7 @@ static const char *refuse(const fw_model *m, const fw_scene_facts *f, const char
     *key = "wind.speed";
     if (!(f->wind_speed.high > 0)) return "wind is switched on, but its speed is 0";
     *key = "wind";
-    if (!acts(m)) return "wind is switched on, but both its drag coefficients are 0";
+    if (!acts(m)) return "wind is switched on, but it drags nothing: skin drag 0, and form drag 0 or ice without a freeboard";
     if (f->n_floes == 0 && !fw_effects_have(m, FW_EFFECT_FORM_DRAG) && !fw_effects_have(m, FW_EFFECT_SKIN_DRAG))
         return "without any drag of the water a field of floes drifts at the wind's own speed";
     return NULL;

@@ -155,11 +155,21 @@ static void wind_needs_a_speed(void **state)
     assert_true(w0 == 3 && w1 == 15);
     CHECK_NEAR(low, 0.43, 0.006);
     CHECK_NEAR(high, 0.43, 0.006);
+    f.wind_speed.low = 15;
+    assert_true(needed("wind", &m, &f));
+    assert_non_null(strstr(REASON, "wind of 15 m/s: "));
+    f.wind_speed = (fw_range){3, INFINITY}; /* a law without an upper end */
+    assert_true(needed("wind", &m, &f));
+    assert_non_null(strstr(REASON, "wind of 3 m/s and more: "));
     m.form_drag = 0, m.wind.form_drag = 0; /* skin alone, of both */
     assert_true(needed("wind", &m, &f));
     assert_int_equal(sscanf(strstr(REASON, "by"), "by %lf to %lf %%", &low, &high), 2);
     CHECK_NEAR(low, 2.0, 0.06);
     m.wind.skin_drag = 0;
+    assert_false(needed("wind", &m, &f));
+    m.wind.form_drag = 1.1;
+    assert_true(needed("wind", &m, &f));
+    m.ice_density = m.water_density; /* no freeboard that it could act on */
     assert_false(needed("wind", &m, &f));
 }
 
