@@ -39,7 +39,7 @@ enum { FW_EFFECTS_CORE = 0xf };
 typedef enum fw_given_bit {
     FW_GIVEN_LAW_SPRING = 1u << 0, /* contact.law: spring */
     FW_GIVEN_LAW_CRUSH = 1u << 1,  /* contact.law: crush */
-    FW_GIVEN_PRESSURE = 1u << 2,   /* contact.pressure or pressure_exponent */
+    FW_GIVEN_PRESSURE = 1u << 2,   /* contact.pressure */
     FW_GIVEN_FLAT = 1u << 3,
     FW_GIVEN_UNLOADING = 1u << 4,
     FW_GIVEN_FLOE_STIFFNESS = 1u << 5,
@@ -54,6 +54,7 @@ typedef enum fw_given_bit {
     FW_GIVEN_TIDE = 1u << 14,
     FW_GIVEN_COURSE = 1u << 15,
     FW_GIVEN_CRUSHING_LIMIT = 1u << 16,
+    FW_GIVEN_PRESSURE_EXPONENT = 1u << 17, /* contact.pressure_exponent */
     FW_GIVEN_EFFECTS = 1u << 30 /* effects: anything but auto */
 } fw_given_bit;
 

@@ -26,8 +26,25 @@ static fw_status refuse_law(const fw_reader *r, const fw_node *at, const char *p
                         name, list);
 }
 
-/* {archard: {...}} or {power: {...}} */
-static fw_status read_own_law(const fw_reader *r, const fw_node *map, const char *path, bool has_limit, fw_abrasion_law *law)
+/* at: the exponent's node. From 2 on the load of a first touch diverges: sigma^m ~ t^(-m/2), under a limit ~ t^(-q m/2). */
+static fw_status check_exponent(const fw_reader *r, const fw_node *at, const char *path, double m, const fw_pressure_law *limit)
+{
+    if (!(m > 0 && m < (limit ? 4 : 2))) {
+        return fw_yaml_fail(at, r->m,
+                            limit ? "%s.exponent = %g: wanted more than 0 and less than 4"
+                                  : "%s.exponent = %g: wanted more than 0 and less than 2: at 2 and above the wear of a first touch is "
+                                    "infinite without a crushing limit (abrasion.crushing_limit)",
+                            path, m);
+    }
+    if (!limit || m * limit->exponent < 2) return FW_OK;
+    return fw_yaml_fail(at, r->m,
+                        "%s.exponent = %g: wanted less than %g under abrasion.crushing_limit.exponent = %g: from there on the wear of a first touch is "
+                        "infinite under that limit too",
+                        path, m, 2 / limit->exponent, limit->exponent);
+}
+
+/* {archard: {...}} or {power: {...}}; limit: NULL without one. */
+static fw_status read_own_law(const fw_reader *r, const fw_node *map, const char *path, const fw_pressure_law *limit, fw_abrasion_law *law)
 {
     if (map->n != 1)
         return fw_yaml_fail(map, r->m, "%s: wanted one law, like {power: {coefficient: 0.1 mm/km, exponent: 1}}", path);
@@ -45,14 +62,7 @@ static fw_status read_own_law(const fw_reader *r, const fw_node *map, const char
     if (!section) return refuse_law(r, map->keys[0], path, name);
     fw_read_path(full, sizeof full, path, name);
     FW_TRY(fw_read_section(r, section, full, map->values[0], &v, NULL));
-    if (is_power && !(v.exponent > 0 && v.exponent < (has_limit ? 4 : 2))) {
-        return fw_yaml_fail(
-            fw_yaml_get(map->values[0], "exponent"), r->m,
-            has_limit ? "%s.exponent = %g: wanted more than 0 and less than 4"
-                      : "%s.exponent = %g: wanted more than 0 and less than 2: at 2 and above the wear of a first touch is "
-                        "infinite without a crushing limit (abrasion.crushing_limit)",
-            full, v.exponent);
-    }
+    if (is_power) FW_TRY(check_exponent(r, fw_yaml_get(map->values[0], "exponent"), full, v.exponent, limit));
     memset(law, 0, sizeof *law);
     snprintf(law->name, sizeof law->name, "%s", name);
     law->coefficient = v.coefficient;
@@ -61,11 +71,11 @@ static fw_status read_own_law(const fw_reader *r, const fw_node *map, const char
     return FW_OK;
 }
 
-static fw_status read_law(const fw_reader *r, const fw_node *n, const char *path, bool has_limit, fw_abrasion_law *law)
+static fw_status read_law(const fw_reader *r, const fw_node *n, const char *path, const fw_pressure_law *limit, fw_abrasion_law *law)
 {
     const char *name = NULL;
 
-    if (n->kind == FW_NODE_MAP) return read_own_law(r, n, path, has_limit, law);
+    if (n->kind == FW_NODE_MAP) return read_own_law(r, n, path, limit, law);
     FW_TRY(fw_read_text(r, n, path, &name));
     const fw_abrasion_law *known = fw_abrasion_find(name);
     if (!known) return refuse_law(r, n, path, name);
@@ -75,7 +85,8 @@ static fw_status read_law(const fw_reader *r, const fw_node *n, const char *path
 
 static fw_status read_laws(const fw_reader *r, const fw_node *n, fw_model *model)
 {
-    size_t count = n->kind == FW_NODE_LIST ? n->n : 1;
+    size_t                 count = n->kind == FW_NODE_LIST ? n->n : 1;
+    const fw_pressure_law *limit = model->given & (uint32_t)FW_GIVEN_CRUSHING_LIMIT ? &model->crushing_limit : NULL;
 
     if (count < 1 || count > FW_MAX_LAWS) {
         return fw_yaml_fail(n, r->m, "abrasion.laws: %zu laws, wanted 1 to %d", count, FW_MAX_LAWS);
@@ -84,7 +95,7 @@ static fw_status read_laws(const fw_reader *r, const fw_node *n, fw_model *model
         const fw_node *at = n->kind == FW_NODE_LIST ? n->values[i] : n;
         char           path[64];
         snprintf(path, sizeof path, "abrasion.laws[%zu]", i + 1);
-        FW_TRY(read_law(r, at, path, model->given & FW_GIVEN_CRUSHING_LIMIT, &model->laws[i]));
+        FW_TRY(read_law(r, at, path, limit, &model->laws[i]));
         for (size_t k = 0; k < i; k++) {
             const fw_abrasion_law *a = &model->laws[k], *b = &model->laws[i];
             if (strcmp(a->name, b->name) == 0 && a->coefficient == b->coefficient && a->exponent == b->exponent &&
@@ -189,9 +200,10 @@ static uint32_t contact_given(uint64_t given, const fw_values *v)
     bool              has_law = fw_read_is_given(s, given, "law");
 
     return bit_if(has_law && v->contact_law == 0, FW_GIVEN_LAW_SPRING) | bit_if(has_law && v->contact_law == 1, FW_GIVEN_LAW_CRUSH) |
-           bit_if(fw_read_is_given(s, given, "pressure") || fw_read_is_given(s, given, "pressure_exponent"), FW_GIVEN_PRESSURE) |
+           bit_if(fw_read_is_given(s, given, "pressure"), FW_GIVEN_PRESSURE) |
+           bit_if(fw_read_is_given(s, given, "pressure_exponent"), FW_GIVEN_PRESSURE_EXPONENT) |
            bit_if(fw_read_is_given(s, given, "flat"), FW_GIVEN_FLAT) |
-           bit_if(fw_read_is_given(s, given, "unloading_stiffness"), FW_GIVEN_UNLOADING) |
+           bit_if(fw_read_is_given(s, given, "unloading_stiffness") && v->unloading >= 0, FW_GIVEN_UNLOADING) |
            bit_if(fw_read_is_given(s, given, "floe_stiffness") && v->floe_stiffness >= 0, FW_GIVEN_FLOE_STIFFNESS) |
            bit_if(fw_read_is_given(s, given, "floe_friction") && v->floe_friction >= 0, FW_GIVEN_FLOE_FRICTION);
 }

@@ -37,7 +37,7 @@ static const fw_key CONTACT[] = {
     NUMBER("slip_damping_ratio", slip_damping_ratio, "1", "1", FROM_TO(0, 100),
            "viscous part of the friction over the normal dashpot"),
     NUMBER("pressure", pressure, "Pa", "1.1 MPa", FROM_TO(1e3, 1e9), "of ice that crushes, on a contact area of 1 m2"),
-    NUMBER("pressure_exponent", pressure_exponent, "1", "0", FROM_TO(0, 0.99),
+    NUMBER("pressure_exponent", pressure_exponent, "1", "0", FROM_TO(0, 0.8),
            "q: pressure (area / 1 m2)^-q on the area chord times thickness; 0: the same on every area"),
     FLAG("flat", has_flat, "on", "crush: the flat that is left turns the floe with it, by a moment up to force times half its width"),
     AUTO("unloading_stiffness", unloading, "1", "auto", FROM_TO(1, 1e6),
@@ -76,7 +76,7 @@ static const fw_key ABRASION[] = {
 SECTION(fw_table_abrasion, "abrasion", "from contact pressure and sliding path to depth", ABRASION);
 
 static const fw_key CRUSHING_LIMIT[] = {
-    NUMBER("pressure", limit_pressure, "Pa", NULL, FROM_TO(1e3, 1e9), "on a contact area of 1 m2"),
+    NUMBER("pressure", limit_pressure, "Pa", NULL, FROM_TO(1e3, 1e8), "on a contact area of 1 m2"),
     NUMBER("exponent", limit_exponent, "1", "0", FROM_TO(0, 0.99), "q: pressure (area / 1 m2)^-q; 0: the same on every area"),
 };
 SECTION(fw_table_crushing_limit, "abrasion.crushing_limit", "pressure at which ice crushes under the contact", CRUSHING_LIMIT);
@@ -85,7 +85,7 @@ static const fw_key POWER[] = {
     {"coefficient", FW_KEY_NUMBER, offsetof(fw_law_values, coefficient), "mm/km", NULL, MORE_THAN(0), NULL,
      "depth per path at 1 MPa (and 1 K below zero)"},
     {"exponent", FW_KEY_NUMBER, offsetof(fw_law_values, exponent), "1", NULL, ANY, NULL,
-     "of the pressure in MPa, more than 0 and less than 2, with a crushing limit less than 4"},
+     "of the pressure in MPa, more than 0 and less than 2, with a crushing limit less than 4 and, times the limit's exponent, less than 2"},
     {"uses_temperature", FW_KEY_FLAG, offsetof(fw_law_values, uses_temperature), NULL, "off", ANY, NULL,
      "on: pressure over the degrees below zero, as in bekker2011"},
 };

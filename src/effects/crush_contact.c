@@ -16,14 +16,17 @@ static bool is_needed(const fw_model *m, const fw_scene_facts *f, char *reason)
     return it_is;
 }
 
+static const char NO_PRESSURE[] = "a spring of given stiffness has no pressure; wanted contact.law: crush, or contact.stiffness: from_pressure";
+
 /* Keys that act under the crushing law alone, while the spring is on. */
 static const char *refuse_beside_spring(const fw_model *m, const fw_scene_facts *f, const char **key)
 {
     *key = "contact.stiffness";
     if (m->stiffness_from_pressure && !fw_effects_given(f, FW_GIVEN_PRESSURE)) return "from_pressure needs contact.pressure, the pressure that the spring stands for";
     *key = "contact.pressure";
-    if (!m->stiffness_from_pressure && fw_effects_given(f, FW_GIVEN_PRESSURE))
-        return "a spring of given stiffness has no pressure; wanted contact.law: crush, or contact.stiffness: from_pressure";
+    if (!m->stiffness_from_pressure && fw_effects_given(f, FW_GIVEN_PRESSURE)) return NO_PRESSURE;
+    *key = "contact.pressure_exponent";
+    if (!m->stiffness_from_pressure && fw_effects_given(f, FW_GIVEN_PRESSURE_EXPONENT)) return NO_PRESSURE;
     *key = "contact.flat";
     if (fw_effects_given(f, FW_GIVEN_FLAT) && m->crush.has_flat) return "a spring leaves no flat behind; wanted contact.law: crush";
     *key = "contact.unloading_stiffness";

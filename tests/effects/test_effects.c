@@ -287,6 +287,8 @@ static void contradictions(void **state)
         {FW_EFFECT_CRUSH_CONTACT, FW_EFFECT_ROTATION, FW_GIVEN_FLAT, "contact.flat"},
         {FW_EFFECT_CRUSH_CONTACT, FW_EFFECT_ROTATION, 0, NULL}, /* the flat is a default */
         {0, 0, FW_GIVEN_PRESSURE, "contact.pressure"},
+        {0, 0, FW_GIVEN_PRESSURE_EXPONENT, "contact.pressure_exponent"},
+        {FW_EFFECT_CRUSH_CONTACT, 0, FW_GIVEN_PRESSURE_EXPONENT, NULL},
         {0, 0, FW_GIVEN_FLAT, "contact.flat"},
         {0, 0, FW_GIVEN_UNLOADING, "contact.unloading_stiffness"},
     };
