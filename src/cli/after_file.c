@@ -8,6 +8,9 @@
 /* Metres about the mean: beyond every tide and surge, and surely a wrong unit or datum. */
 static const double FARTHEST = 50;
 
+/* A median farther off than this is a rate (mm/km is a number to a unit parser) or a wrong parameter, no factor on a rate. */
+static const double MOST_SCATTER = 1000;
+
 static const char *const KEYS[][2] = {{"water", "level"}, {"abrasion", "scatter"}};
 
 static const fw_node *find(const fw_reader *r, size_t i) { return fw_yaml_get(fw_yaml_get(r->root, KEYS[i][0]), KEYS[i][1]); }
@@ -33,10 +36,13 @@ static fw_status read_scatter(const fw_reader *r, const fw_node *n, fw_after *ou
     if (!n) return FW_OK;
     FW_TRY(fw_read_distribution(r, n, "abrasion.scatter", "1", &out->law_scatter));
     out->has_law_scatter = true;
-    double low = fw_distribution_min(&out->law_scatter);
+    double low = fw_distribution_min(&out->law_scatter), median = fw_distribution_quantile(&out->law_scatter, 0.5);
+    if (isinf(low)) return fw_yaml_fail(n, r->m, "abrasion.scatter has no lower end, wanted a factor of at least 0 (give min)");
     if (!(low >= 0)) return fw_yaml_fail(n, r->m, "abrasion.scatter reaches down to %g, wanted a factor of at least 0", low);
-    if (!(fw_distribution_quantile(&out->law_scatter, 0.5) > 0))
-        return fw_yaml_fail(n, r->m, "abrasion.scatter has the median 0, wanted more than 0");
+    if (!(median >= 1 / MOST_SCATTER && median <= MOST_SCATTER)) {
+        return fw_yaml_fail(n, r->m, "abrasion.scatter has the median %g, wanted a factor on the law's rate, %g to %g", median, 1 / MOST_SCATTER,
+                            MOST_SCATTER);
+    }
     return FW_OK;
 }
 
