@@ -148,6 +148,9 @@ static fw_status find_numerics(const fw_campaign *c, const fw_choice_wanted *w, 
 
 #define SAY_EFFECTS(...) snprintf(out->effects_line, sizeof out->effects_line, __VA_ARGS__)
 
+/* Whoever says what is on has decided. */
+static bool has_effects(const fw_campaign *c) { return (c->model.given & (uint32_t)FW_GIVEN_EFFECTS) != 0; }
+
 /* Which effects go, as a set, and the line that says why. */
 static void leave_out(const fw_campaign *c, const char *path, fw_choice *out, char *set, size_t size)
 {
@@ -155,10 +158,7 @@ static void leave_out(const fw_campaign *c, const char *path, fw_choice *out, ch
     double                tolerance = c->model.effects_tolerance;
     size_t                n = fw_effects_ledger_drops(&out->effects, tolerance, rows), used = 0, said = 0;
     if (!(tolerance > 0)) return;
-    if (c->model.given & (uint32_t)FW_GIVEN_EFFECTS) {
-        SAY_EFFECTS("effects: as the campaign says; effects_tolerance acts under effects: auto alone");
-        return;
-    }
+    if (has_effects(c)) return;
     said = (size_t)SAY_EFFECTS("effects: by %.200s %s moves less than effects_tolerance %g %% and costs more than 1 %%", path,
                                n ? "this" : "none", 100 * tolerance);
     for (size_t i = 0; i < n; i++) {
@@ -183,8 +183,9 @@ static fw_status find_effects(const fw_campaign *c, const fw_choice_wanted *w, f
     struct stat st;
     FW_TRY(fw_choice_path(path, sizeof path, w->out ? w->out : c->name, FW_CHOICE_EFFECTS, m));
     fw_effects_measured_default(&out->effects, &c->model);
+    if (c->model.effects_tolerance > 0 && has_effects(c)) SAY_EFFECTS("effects: as the campaign says; effects_tolerance acts under effects: auto alone");
     if (stat(path, &st) != 0) {
-        if (c->model.effects_tolerance > 0) SAY_EFFECTS("effects: none is left out: no %.300s (floewear plan --effects writes it)", path);
+        if (c->model.effects_tolerance > 0 && !has_effects(c)) SAY_EFFECTS("effects: none is left out: no %.300s (floewear plan --effects writes it)", path);
         return FW_OK;
     }
     fw_status s = fw_tables_open(&t, path, FW_EFFECTS_FILETYPE, &why);

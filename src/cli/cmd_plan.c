@@ -31,6 +31,17 @@ typedef struct arguments {
     int64_t     seed;
 } arguments;
 
+/* An option that would be passed over is refused. */
+static void check_options(const arguments *a, struct argp_state *state)
+{
+    if (!a->is_effects && a->effects_budget_s > 0) argp_error(state, "--effects-budget goes with --effects");
+    if (!a->is_effects && a->n_whole > 0) argp_error(state, "--effects-whole goes with --effects");
+    if (a->n_whole > 0 && a->effects_budget_s > 0) argp_error(state, "--effects-whole says how many windows, and so does --effects-budget: one of them");
+    if (a->is_effects && a->pilot >= 0) argp_error(state, "--pilot goes without --effects, which runs no pilot");
+    if (a->is_effects && a->accuracy_from)
+        argp_error(state, "--accuracy-from goes without --effects, which takes the numerics that are built in or stand in the campaign");
+}
+
 static error_t parse(int key, char *arg, struct argp_state *state)
 {
     arguments *a = state->input;
@@ -65,6 +76,7 @@ static error_t parse(int key, char *arg, struct argp_state *state)
         a->campaign = arg;
         return 0;
     case ARGP_KEY_NO_ARGS: argp_error(state, "a campaign file is needed"); return 0;
+    case ARGP_KEY_SUCCESS: check_options(a, state); return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
 }

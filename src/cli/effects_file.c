@@ -22,8 +22,8 @@ static fw_status find_effect(const fw_reader *r, const fw_node *at, const char *
         used += k > 0 ? (size_t)k : 0;
     }
     const char *nearest = fw_keys_nearest_word(n, names, name);
-    return fw_yaml_fail(at, r->m, "effects: unknown effect \"%.60s\"%s%s%s, wanted of %s", name,
-                        nearest ? ", did you mean \"" : "", nearest ? nearest : "", nearest ? "\"?" : "", list);
+    return fw_yaml_fail(at, r->m, "effects: unknown effect \"%.60s\", %s%s%swanted of %s", name, nearest ? "did you mean \"" : "",
+                        nearest ? nearest : "", nearest ? "\"? " : "", list);
 }
 
 static fw_status read_switch(const fw_reader *r, const fw_node *key, const fw_node *value, uint32_t *set)
@@ -58,6 +58,7 @@ static fw_status override(const fw_reader *r, const fw_node *n, uint32_t *set)
         for (size_t i = 0; i < n->n; i++) {
             FW_TRY(fw_read_text(r, n->values[i], "effects", &text));
             FW_TRY(find_effect(r, n->values[i], text, &effect));
+            if (*set & (uint32_t)effect->bit) return fw_yaml_fail(n->values[i], r->m, "effects: %s stands twice", text);
             *set |= (uint32_t)effect->bit;
         }
         return FW_OK;

@@ -37,7 +37,7 @@ static const char *say_share(char *text, size_t size, double share)
     if (isnan(share))
         snprintf(text, size, "-");
     else
-        snprintf(text, size, share == 0 ? "0" : "%.1f %%", 100 * share);
+        snprintf(text, size, share == 0 ? "0" : "%.1f %%", fabs(share) < 0.0005 ? 0 : 100 * share); /* never -0.0 */
     return text;
 }
 

@@ -122,6 +122,7 @@ class Ledger(InFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         for piece in ("rotation", "on -> off", "10 -> 0.9", "not asked for", "drift and touch", "cost shares"):
             self.assertIn(piece, done.stdout)
+        self.assertNotRegex(done.stdout, r"[ x[]-0(\.0+)?[ \],]|\b(nan|inf)\b")
         self.assertIn("run, plan and report of this campaign show it", done.stderr)
 
     def test_same_budget_same_numbers(self):
@@ -148,6 +149,9 @@ class Ledger(InFolder):
     def test_refusals(self):
         self.refuse(2, "plan", CAMPAIGN, "--effects", "--effects-budget", "3 m", piece="effects-budget")
         self.refuse(2, "plan", CAMPAIGN, "--effects", "--effects-whole", "0", piece="effects-whole")
+        for words in (("--effects-budget", "1s"), ("--effects-whole", "2"), ("--effects", "--effects-whole", "2", "--effects-budget", "1s"),
+                      ("--effects", "--pilot", "2"), ("--effects", "--accuracy-from", "a.accuracy.h5")):
+            self.refuse(2, "plan", CAMPAIGN, *words, piece=words[-2])  # would be passed over
         self.refuse(2, "plan", CAMPAIGN, "--effects", env={**os.environ, "OMPI_COMM_WORLD_SIZE": "2"}, piece="without mpirun")
         self.refuse(4, "plan", CAMPAIGN, "--effects", "-o", "nowhere/a", piece="nowhere")
         pathlib.Path("dense.effects.h5").write_text("mine")
@@ -246,6 +250,8 @@ class LeaveOut(InFolder):
         on, line, _ = self.names_on("--set", "effects_tolerance=1")
         self.assertEqual(on, set(CORE))
         self.assertIn("no dense.effects.h5", line)
+        _, line, _ = self.names_on("--set", "effects_tolerance=1", "--set", "effects={floe_contact: on}")
+        self.assertIn("as the campaign says", line)
 
     def test_run_names_it(self):
         """It stands in settings and hash: the same campaign without the file is another one, and says which key differs."""
