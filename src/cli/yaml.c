@@ -462,6 +462,7 @@ fw_status fw_yaml_set(fw_yaml *y, const char *assignment, fw_msg *m)
     memcpy(path, assignment, length);
     path[length] = '\0';
     snprintf(name, sizeof name, "--set %.200s", assignment);
+    FW_CHECK(equals[1 + strspn(equals + 1, " \t\n")], m, FW_E_INPUT, "%s: there is no value behind =, wanted dotted.path=value", name);
     FW_TRY(keep_origin(y, name, &origin, m));
     FW_TRY(parse_tree(&value, origin, false, equals + 1, strlen(equals + 1), m));
     return put(y->root, path, origin, value, m);
