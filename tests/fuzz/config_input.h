@@ -9,6 +9,9 @@
 #ifndef FW_TESTS_FUZZ_CONFIG_INPUT_H
 #define FW_TESTS_FUZZ_CONFIG_INPUT_H
 
+#include <math.h>
+
+#include "effects/effects.h"
 #include "fuzz/fuzz.h"
 
 enum { FUZZ_SETS = 8 };
@@ -57,11 +60,49 @@ static inline void fuzz_config_take(fuzz_config *c, const uint8_t *data, size_t 
     }
 }
 
+/* table.csv beside the file; none without one. */
+static inline void fuzz_save_table(const fuzz_config *c)
+{
+    char path[FUZZ_PATH];
+    fuzz_path(path, "table.csv");
+    if (c->table != NULL)
+        fuzz_save(path, c->table, c->n_table);
+    else
+        unlink(path);
+}
+
 static inline void fuzz_config_free(fuzz_config *c)
 {
     for (size_t i = 0; i < c->n_sets; i++) free(c->sets[i]);
     free(c->text);
     free(c->table);
+}
+
+static inline bool fuzz_is_number_word(const char *text)
+{
+    for (const char *at = text; *at != '\0'; at += strcspn(at, " ")) {
+        at += strspn(at, " -+");
+        if (strncmp(at, "nan", 3) == 0 || (strncmp(at, "inf", 3) == 0 && strncmp(at, "infi", 4) != 0)) return true;
+    }
+    return false;
+}
+
+/* Effects are settled without a contradiction, each says why in numbers that are numbers, and a course goes forward. */
+static inline void fuzz_check_effects(const fw_model *m, const fw_scene_facts *f)
+{
+    const fw_effect *const *e;
+    const char             *key = "", *why = fw_effects_refuse(m, f, &key);
+    FUZZ_LAW(why == NULL, "%s: %s", key, why);
+    for (size_t i = fw_effects_list(&e); i-- > 0;) {
+        char reason[FW_REASON_SIZE] = "";
+        e[i]->is_needed(m, f, reason);
+        FUZZ_LAW(strlen(reason) >= 5 && !fuzz_is_number_word(reason), "%s: %s", e[i]->name, reason);
+    }
+    for (size_t i = 0; i < m->tide.n_rows; i++) {
+        const fw_course_row *r = &m->tide.rows[i];
+        FUZZ_LAW(isfinite(r->time) && isfinite(r->factor) && isfinite(r->turn), "row %zu of the course", i + 1);
+        FUZZ_LAW(i == 0 || r->time > r[-1].time, "row %zu of the course: %g s after %g s", i + 1, r->time, r[-1].time);
+    }
 }
 
 /* What was wrong is named by its file, or by the --set that it came from. */

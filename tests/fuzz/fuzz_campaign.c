@@ -6,6 +6,7 @@
 #include "cli/config.h"
 #include "fuzz/config_input.h"
 #include "fuzz/fuzz.h"
+#include "realisation/facts.h"
 
 static const char *const files[] = {"table.csv", NULL};
 
@@ -58,6 +59,8 @@ static void check_scenarios(const fw_campaign *c)
         FUZZ_LAW(s.speed >= 0 && isfinite(s.speed), "speed %g", s.speed);
         FUZZ_LAW(s.mix < c->model.n_mixes && (c->site.n_cells == 0 || s.cell < c->site.n_cells), "mix %u cell %u",
                  s.mix, s.cell);
+        FUZZ_LAW(s.wind_speed >= 0 && isfinite(s.wind_speed) && isfinite(s.wind_angle) && isfinite(s.tide_phase), "wind %g m/s at %g, phase %g",
+                 s.wind_speed, s.wind_angle, s.tide_phase);
         FUZZ_LAW(fw_distribution_check(fw_site_direction(&c->site, &s), NULL) == FW_OK, "directions of cell %u",
                  s.cell);
     }
@@ -69,6 +72,9 @@ static void check_accepted(const fw_campaign *c, const fuzz_config *in, const ch
     FUZZ_LAW(fw_model_check(&c->model, &m) == FW_OK, "%s", m.text);
     FUZZ_LAW(c->name[0] != '\0' && memchr(c->name, 0, sizeof c->name) != NULL && strchr(c->name, '/') == NULL,
              "name %.64s", c->name);
+    fw_scene_facts facts;
+    FUZZ_LAW(fw_facts_campaign(&c->model, &c->site, &facts, &m) == FW_OK, "%s", m.text);
+    fuzz_check_effects(&c->model, &facts);
     check_settings(c);
     check_points(c);
     check_scenarios(c);
@@ -80,16 +86,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     fuzz_config in;
     fw_campaign c;
     fw_msg      m = {""};
-    char        name[FUZZ_PATH], table[FUZZ_PATH];
+    char        name[FUZZ_PATH];
 
     fuzz_enter_folder(files);
     fuzz_path(name, "made.yaml"); /* no such file: its folder is where the table lies */
-    fuzz_path(table, "table.csv");
     fuzz_config_take(&in, data, size);
-    if (in.table != NULL)
-        fuzz_save(table, in.table, in.n_table);
-    else
-        unlink(table);
+    fuzz_save_table(&in);
 
     double    started = fw_cpu_seconds();
     fw_status status = fw_config_campaign_text(&c, name, in.text, in.n_text, in.n_sets, in.set_list, -1, &m);

@@ -4,8 +4,9 @@
 #include "cli/config.h"
 #include "fuzz/config_input.h"
 #include "fuzz/fuzz.h"
+#include "realisation/facts.h"
 
-static const char *const files[] = {"made.yaml", NULL};
+static const char *const files[] = {"made.yaml", "table.csv", NULL};
 
 static bool is_finite_floe(const fw_floe *f)
 {
@@ -20,6 +21,11 @@ static void check_accepted(const fw_scene *s)
     FUZZ_LAW(s->speed >= 0 && isfinite(s->speed) && s->duration > 0 && isfinite(s->duration), "speed %g, duration %g",
              s->speed, s->duration);
     FUZZ_LAW(s->temperature < 0 && isfinite(s->temperature), "temperature %g", s->temperature);
+    FUZZ_LAW(s->wind_speed >= 0 && isfinite(s->wind_speed) && isfinite(s->wind_angle) && isfinite(s->tide_phase), "wind %g m/s at %g, phase %g",
+             s->wind_speed, s->wind_angle, s->tide_phase);
+    fw_scene_facts facts;
+    fw_facts_scene(s, &facts);
+    fuzz_check_effects(&s->model, &facts);
     for (size_t i = 0; i < s->n_floes; i++) {
         const fw_floe *f = &s->floes[i];
         FUZZ_LAW(is_finite_floe(f), "floe %zu", i + 1);
@@ -39,6 +45,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     fuzz_path(path, "made.yaml");
     fuzz_config_take(&in, data, size);
     fuzz_save(path, in.text, in.n_text);
+    fuzz_save_table(&in);
 
     double    started = fw_cpu_seconds();
     fw_status status = fw_config_scene(&s, path, in.n_sets, in.set_list, &m);
