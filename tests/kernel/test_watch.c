@@ -86,29 +86,28 @@ static void slip_chatters(void **state)
 {
     (void)state;
     fw_setup  s = setup();
-    size_t    last = FW_METHOD_ARK3->n_stages - 1;
     fw_ledger l = {0};
     rig       r = {0};
     step_of(&r, 3, -3, 1000); /* from cap to cap: may be real, once */
     assert_false(fw_watch_step(&r.c, &s, 0.01));
-    fw_watch_slip(&r.c, &l, last);
+    fw_watch_slip(&r.c, &s, &l);
     assert_true(r.pair.jumped == -1 && l.chatter == 0 && l.contact_steps == 1);
     step_of(&r, -3, 3, 1000); /* and back at once is not */
     assert_true(fw_watch_step(&r.c, &s, 0.01));
-    fw_watch_slip(&r.c, &l, last);
+    fw_watch_slip(&r.c, &s, &l);
     assert_true(l.chatter == 1 && l.contact_steps == 2);
     CHECK_RELATIVE(fw_ledger_chatter(&l), 0.5, 1e-15);
     step_of(&r, 3, -0.5, 1000); /* ends below the cap: creep, resolved */
     assert_false(fw_watch_step(&r.c, &s, 0.01));
-    fw_watch_slip(&r.c, &l, last);
+    fw_watch_slip(&r.c, &s, &l);
     r.pair.jumped = 1, r.pair.law.mu = 0; /* without friction there is no cap: a change of sign is just one */
     step_of(&r, 3, -3, 1000), r.pair.law.mu = 0;
     assert_false(fw_watch_step(&r.c, &s, 0.01));
-    fw_watch_slip(&r.c, &l, last);
+    fw_watch_slip(&r.c, &s, &l);
     assert_true(l.chatter == 1 && r.pair.jumped == 0);
     step_of(&r, 3, -3, 0); /* ends without a force */
     assert_false(fw_watch_step(&r.c, &s, 0.01));
-    fw_watch_slip(&r.c, &l, last);
+    fw_watch_slip(&r.c, &s, &l);
     assert_true(l.chatter == 1 && r.pair.jumped == 0);
 }
 
