@@ -109,6 +109,21 @@ static void slip_chatters(void **state)
     assert_false(fw_watch_step(&r.c, &s, 0.01));
     fw_watch_slip(&r.c, &s, &l);
     assert_true(l.chatter == 1 && r.pair.jumped == 0);
+    /* between floes, within what sweeps leave: a jump, but for ice that crushes beside it */
+    s.solver_share = 3, s.tolerance = 1e-3;
+    double least = s.solver_share * s.tolerance * s.velocity_scale;
+    for (int crush = 0; crush < 2; crush++) {
+        s.is_crush = crush;
+        step_of(&r, 0.05 * least, -0.05 * least, 1000), r.pair.b = 1, r.pair.law.ct = 1e9;
+        fw_watch_slip(&r.c, &s, &l);
+        assert_true(r.pair.jumped == (crush ? 0 : -1));
+        r.pair.b = FW_WALL;
+        fw_watch_slip(&r.c, &s, &l);
+        assert_true(r.pair.jumped == -1);
+    }
+    /* a sum below 0 of what has gone so far is no measure: this step is in balance */
+    r.pair.jumped = 0, r.c.dissipated = -1000, r.c.tried = (fw_step_books){.dashpot = 1, .kinetic_change = -1};
+    assert_false(fw_watch_step(&r.c, &s, 0.01));
 }
 
 /* Imbalance against what the cluster has dissipated: twice the tolerance is allowed in one step, and what a floe at rest cannot tell. */
