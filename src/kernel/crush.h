@@ -4,13 +4,20 @@
  *     |    ___/  |
  *     |  _/      | flat: N = F(D) (1 - kappa (D - d) / D) + c d', back and forth on one line, not below 0, not above F(D)
  *     | /        |
- *     +----------+----> d                 D: deepest overlap so far at that place of the rim
+ *     +----------+----> d                 D: deepest overlap so far at that place of the rim, D0 at least
  *
  * Only floe on structure; between floes the spring stays. F takes the exact lens. c = 2 sqrt(S m) with S = kappa F(D) / D, critical: crushed ice is
  * squeezed between flat and wall. So no bounce on a flat, and a push that is over gives e^-2 of its speed back: half of that, in powers of e, by kappa, half by c.
  * A line without damper was tried first (kappa 7 times as large): a floe then rings on its flat for a second and more, at 15 w, and where it comes to rest is
  * chance: of nine hits at accuracy 1 % six were 5 to 60 % off in depth, with other tolerances as many and others, for four times the evaluations. While the
  * ice crushes there is no damper (N = p b h as measured); where d falls and D faster (a floe that rolls) N = F(d) + c d'.
+ *
+ * Slow currents. Every place of a rim has D >= D0 (physics/crush.h), up to which ice is elastic: N = F(D0) d / D0 + c d' there, and kappa goes from 1 to its own
+ * beyond. Without, F(d) ~ sqrt(d) has no end of slope: 0.1 N stood on 1e-15 m, which is rounding, and windows at 1 mm/s never ended. D0 moves hits at 1 to 2
+ * m/s by less than 1e-4 (tests/reference/crush.csv, which is without). Where little presses (below F(D0), some 200 N: floes that rub in less than 0.2 m/s) it is a law of its own: the chord stays that of D0, while
+ * Hertz lets it shrink as sqrt(N / F(D0)) and crushing, with no D0, as N / F(D0). Wear's load goes with the chord to the -0.12: at 5 cm/s windows wear 14 %
+ * less than with no D0, at D0 = 1e-7 m another 2 %; against Hertz it is (N / F(D0))^0.06, -20 % where a fortieth of F(D0) presses. D0 is one number:
+ * for p of 6 MPa Hertz says 30 times as much, for 0.2 MPa a thirtieth.
  *
  * Place. A push leaves the imprint of the wall's disc, d - s^2 / (2 R*), in the floe's own frame. Nodes round the rim, no further apart than a tenth of a
  * typical chord, keep the imprint that is deepest there; between two nodes D is the deeper of theirs. One imprint so comes back exactly, many
@@ -22,8 +29,9 @@
  * w spin, v/r orbital rate. None during the push (N = F), without a jump there. Pressure on a round wall has no moment about its axis: with M goes the
  * force -M/r along the wall. So M works on w - v/r alone, and takes energy always; torque alone would give some where the wall's turning drags spin along.
  *
- * Energy. Stored: (N - c d')^2 / 2S. Crushed: what int F dd leaves of it. Turned: places of other D come under the wall as the floe turns against it;
- * what that changes in store no force has paid (a cam without torque); of either sign, and within what the flat's moment takes.
+ * Energy. Stored: (N - c d')^2 / 2S. Crushed: what int F dd leaves of it, below D0 as well where a push begins with the touch. Turned: places of other D come
+ * under the wall as the floe turns against it; what that changes in store no force has paid (a cam without torque); of either sign, and within what the
+ * flat's moment takes.
  *
  * Range. The floe keeps its mass, inertia and round rim, a tenth of the radius deep 2 % of its mass are gone. What is elastic, D / kappa, stays
  * below a tenth of it as long as D is below half of it. So such contacts count in the largest overlap and in none of the shares "beyond a tenth"; a
@@ -42,7 +50,7 @@ typedef struct fw_rim {
     double          radius, thickness, structure_radius, mass;
     double          reduced;      /* R* = R Rs / (R + Rs) */
     fw_pressure_law law;
-    double          kappa;
+    double          kappa;        /* far beyond D0 */
     double          spin_damping; /* cr; 0: no flat */
     /* what is remembered */
     size_t n;            /* nodes, evenly round the rim */

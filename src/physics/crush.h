@@ -3,6 +3,7 @@
  *   p = P0 (b h / 1 m2)^-q,  F = p b h = P0 (b h)^(1-q)            loading: b the chord of the overlap, h the thickness; p below 0.01 m2 as there
  *   N = F(D) (1 - kappa (D - d) / D) + c d' >= 0,  d < D           on the flat that the deepest overlap D has left, c critical
  *
+ * Below, D is taken to be far beyond D0.
  * Shallow lens, b = 2 sqrt(2 R* d) with 1/R* = 1/R + 1/Rs (the exact lens is used where forces act; it is within 1 %):
  *   push       int F dd = F(D) D / e,  e = (3 - q)/2, so m v^2 / 2 = F(D) D / e gives the deepest overlap
  *   rebound    F(D) D / (2 kappa) is in store, and a critically damped line from rest lets go at exp(-1) of the speed of that: after 1/w, with

@@ -191,6 +191,25 @@ static void rests_on_its_flat(void **state)
     end(&r);
 }
 
+/* A current of 3 mm/s presses a fresh rim with 0.06 N: it stands where the line of D0 carries that, nothing crushes, and it is found in a few steps. */
+static void stands_on_fresh_rim(void **state)
+{
+    (void)state;
+    double   U = 3e-3, b, N = 5125 * D * H * U * U, d;
+    fw_setup s = setup(true, U);
+    s.velocity_scale = s.crush_speed = U;
+    rig r = start(s, 0, 5125);
+    send(&r, -(RS + D / 2) - 1e-9, 0, 0, 0, 0);
+    run(&r, 2e4);
+    double F = fw_rim_force(r.w->bodies[0].rim, FW_CRUSH_ELASTIC, &b), stands = FW_CRUSH_ELASTIC * N / F;
+    d = fw_world_overlap(r.w, 0, FW_WALL);
+    CHECK_RELATIVE(F, P * b * H, 1e-14);
+    CHECK_NEAR(d, stands, 1e-3 * stands + 2e-15); /* rounding of its position */
+    assert_true(r.w->ledger.crushed == 0 && r.w->ledger.force_evaluations < 1000);
+    assert_true(fw_ledger_energy_given(&r.w->ledger) == 0);
+    end(&r);
+}
+
 /* Back on its flat, slowly: nothing crushes, and it comes to a stop without a bounce. Turned by a quarter: fresh rim, which crushes. Turned back and
  * harder than before: it crushes on from where the flat is. */
 static void comes_back_on_its_flat(void **state)
@@ -264,6 +283,6 @@ static void no_rim_without_a_touch(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(rim_remembers), cmocka_unit_test(rim_has_no_jumps), cmocka_unit_test(energy_of_a_push), cmocka_unit_test(energy_of_a_slide),
-                                       cmocka_unit_test(rests_on_its_flat), cmocka_unit_test(comes_back_on_its_flat), cmocka_unit_test(a_push_that_turns), cmocka_unit_test(no_rim_without_a_touch)};
+                                       cmocka_unit_test(rests_on_its_flat), cmocka_unit_test(stands_on_fresh_rim), cmocka_unit_test(comes_back_on_its_flat), cmocka_unit_test(a_push_that_turns), cmocka_unit_test(no_rim_without_a_touch)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

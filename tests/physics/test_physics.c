@@ -117,6 +117,12 @@ static void crushing(void **state)
     CHECK_RELATIVE(fw_crush_force(&area, 0.5), 1.1e6 * pow(0.5, 0.7), 1e-14);
     CHECK_RELATIVE(fw_crush_pressure(&area, 0.5) * 0.5, fw_crush_force(&area, 0.5), 1e-14);
     assert_true(fw_crush_force(&area, 0) == 0);
+    /* the end of the line of D moves by 1 - 1/kappa of what D has gone past D0 */
+    assert_true(fw_crush_kappa(5.5, FW_CRUSH_ELASTIC) == 1 && fw_crush_kappa(5.5, 0) == 1);
+    for (double past = 1e-12; past < 1; past *= 10) {
+        double D = FW_CRUSH_ELASTIC + past;
+        CHECK_RELATIVE(D / fw_crush_kappa(5.5, D), D - (1 - 1 / 5.5) * past, 1e-12);
+    }
     for (double q = 0; q < 0.7; q += 0.3) {
         double          D, e;
         fw_pressure_law law = {1.1e6, q};

@@ -334,6 +334,29 @@ static void windows_keep_the_laws(void **state)
     }
 }
 
+/* In slow currents 0.01 to 0.1 N hold a floe on the structure. Windows of as much ice: a step is a floe's way over its speed, so they cost next to the same. */
+static void slow_windows(void **state)
+{
+    (void)state;
+    static const double SPEED[] = {1, 0.05, 0.01, 3e-3, 1e-3};
+    for (int flat = 0; flat < 2; flat++) {
+        double per_metre[5];
+        for (int k = 0; k < 5; k++) {
+            double way = k == 0 ? 1200 : 240, evaluations = 0;
+            for (uint64_t id = 0; id < 6; id++) {
+                fw_record r = window(FW_EFFECT_CRUSH_CONTACT, flat, 0.2, SPEED[k], way / SPEED[k], id);
+                if (r.status != FW_OK) fail_msg("%g m/s, window %u failed: %s", SPEED[k], (unsigned)id, r.cause);
+                assert_true(r.energy_truncation <= 0.01 && r.energy_relative <= 1e-12 && r.momentum_relative <= 1e-12 && r.wear_conservation <= 1e-10);
+                evaluations += r.force_evaluations;
+                fw_record_free(&r);
+            }
+            per_metre[k] = evaluations / (6 * way);
+            print_message("%s flat, %g m/s: %.0f evaluations a metre\n", flat ? "with" : "without", SPEED[k], per_metre[k]);
+            assert_true(per_metre[k] < 10 * per_metre[0]);
+        }
+    }
+}
+
 /* What the law acts with counts only while it is on. */
 static void off_is_absent(void **state)
 {
@@ -376,6 +399,6 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(reference_hits), cmocka_unit_test(error_follows_tolerance), cmocka_unit_test(head_on), cmocka_unit_test(rolls_or_slides),
                                        cmocka_unit_test(path_with_and_without_flat), cmocka_unit_test(mirrored_and_locked), cmocka_unit_test(locked_and_spinning),
                                        cmocka_unit_test(flat_turns_without_friction), cmocka_unit_test(without_a_current), cmocka_unit_test(stiffness_from_pressure),
-                                       cmocka_unit_test(windows_keep_the_laws), cmocka_unit_test(off_is_absent), cmocka_unit_test(refusals)};
+                                       cmocka_unit_test(windows_keep_the_laws), cmocka_unit_test(slow_windows), cmocka_unit_test(off_is_absent), cmocka_unit_test(refusals)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
