@@ -236,6 +236,8 @@ static inline const fw_distribution *fw_site_direction(const fw_site *s, const f
 
 void      fw_model_defaults(fw_model *m); /* the source paper's Raahe example */
 fw_status fw_model_check(const fw_model *m, fw_msg *msg);
+/* What of this model the fixed-step methods do not have, in words; NULL: they have all of it. */
+const char *fw_model_beyond_fixed_steps(const fw_model *m);
 void      fw_site_free(fw_site *s);
 
 #endif

@@ -35,9 +35,16 @@ void fw_plain_destroy(fw_plain *p)
     free(p);
 }
 
-double fw_plain_needs_ice_from(const fw_plain *p, const fw_world *w)
+fw_box fw_plain_needs_ice(const fw_plain *p, const fw_world *w)
 {
-    return p->inlet - w->max_radius - p->setup.skin;
+    fw_strip strip = fw_strip_of(&p->setup, w);
+    double   along[2] = {p->inlet - w->max_radius - p->setup.skin, p->setup.downstream}, across[2] = {-strip.half_width, strip.half_width};
+    fw_box   box = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+    for (int i = 0; i < 4; i++) {
+        double a = along[i / 2], b = across[i % 2], x = strip.cx * a - strip.cy * b, y = strip.cy * a + strip.cx * b;
+        box.x0 = fmin(box.x0, x), box.x1 = fmax(box.x1, x), box.y0 = fmin(box.y0, y), box.y1 = fmax(box.y1, y);
+    }
+    return box;
 }
 
 static fw_status wake_all(fw_plain *p, fw_world *w, fw_msg *m)
@@ -47,7 +54,8 @@ static fw_status wake_all(fw_plain *p, fw_world *w, fw_msg *m)
         fw_block *b = &w->blocks[k];
         if (b->n_left == 0) continue;
         for (size_t i = 0; i < b->n; i++) {
-            if (b->is_taken[i] || b->x[i] + w->drift_x < p->inlet || !fw_strip_has(&strip, b->x[i], b->y[i])) continue;
+            double along = strip.cx * (b->x[i] + w->drift_x) + strip.cy * (b->y[i] + w->drift_y);
+            if (b->is_taken[i] || along < p->inlet || !fw_strip_has(&strip, b->x[i], b->y[i])) continue;
             FW_TRY(fw_wake(&p->setup, w, k, i, m));
             w->bodies[w->n_bodies - 1].is_touched = true; /* so that pairs of it are listed and stepped */
         }
@@ -112,8 +120,9 @@ fw_status fw_plain_step(fw_plain *p, fw_world *w, fw_wear *wear, double t_end, f
         if (left < dt * (1 + 1e-9)) w->t = t_end;
         if (n % 10 == 0 && fw_neighbours_is_stale(&p->neighbours, &p->setup, w, near_time)) FW_TRY(list(p, w, m));
     }
-    bool any = false;
-    for (size_t i = 0; i < w->n_bodies; i++) any |= p->is_gone[i] = w->bodies[i].x > p->setup.downstream;
+    bool     any = false;
+    fw_strip strip = fw_strip_of(&p->setup, w);
+    for (size_t i = 0; i < w->n_bodies; i++) any |= p->is_gone[i] = strip.cx * w->bodies[i].x + strip.cy * w->bodies[i].y > p->setup.downstream;
     if (any) forget(p, w);
     FW_CHECK(isfinite(fw_world_energy(w)), m, FW_E_NUMERIC, "plain method: the state is not finite at t = %.6g s",
              w->t);

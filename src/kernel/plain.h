@@ -16,11 +16,11 @@
 
 typedef struct fw_plain fw_plain;
 
-/* numerics: scheme (not FW_SCHEME_EVENTS), step and wear_rule. inlet: ice further upstream than this x [m] stays untouched. */
+/* numerics: scheme (not FW_SCHEME_EVENTS), step and wear_rule. inlet: ice that comes from further upstream than this [m, < 0] stays untouched. */
 fw_status fw_plain_create(fw_plain **out, const fw_setup *setup, const fw_numerics *numerics, double inlet, fw_msg *m);
 void      fw_plain_destroy(fw_plain *p);
 /* Some steps (about 0.1 s), at most to t_end, whose last step may be shorter. */
 fw_status fw_plain_step(fw_plain *p, fw_world *w, fw_wear *wear, double t_end, fw_msg *m);
-double    fw_plain_needs_ice_from(const fw_plain *p, const fw_world *w);
+fw_box    fw_plain_needs_ice(const fw_plain *p, const fw_world *w); /* as fw_kernel_needs_ice */
 
 #endif

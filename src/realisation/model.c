@@ -72,6 +72,13 @@ static fw_status check_laws(const fw_model *m, fw_msg *msg)
     return FW_OK;
 }
 
+const char *fw_model_beyond_fixed_steps(const fw_model *m)
+{
+    if (m->effects & FW_EFFECT_CRUSH_CONTACT) return "contacts that crush";
+    if (m->stiffness_from_pressure) return "stiffness from pressure";
+    return m->effects & FW_EFFECT_TIDE ? "a current that changes within a window" : NULL;
+}
+
 fw_status fw_model_check(const fw_model *m, fw_msg *msg)
 {
     NEED(is_in(m->structure_radius, 0.05, 500), "structure radius %g m: wanted 0.05 to 500 m", m->structure_radius);
@@ -97,8 +104,9 @@ fw_status fw_model_check(const fw_model *m, fw_msg *msg)
         NEED(is_in(c->law.pressure, 1e3, 1e9), "crush pressure %g Pa: wanted 1e3 to 1e9", c->law.pressure);
         NEED(is_in(c->law.exponent, 0, 0.8), "exponent of the crush pressure %g: wanted 0 to 0.8", c->law.exponent);
         NEED(!(c->unloading > 0) || is_in(c->unloading, 1, 1e6), "unloading stiffness %g: wanted 1 to 1e6, times force over deepest overlap", c->unloading);
-        NEED(m->numerics.scheme == FW_SCHEME_EVENTS, "contacts by crushing pressure are the event-driven kernel's");
     }
+    const char *beyond = fw_model_beyond_fixed_steps(m);
+    NEED(m->numerics.scheme == FW_SCHEME_EVENTS || !beyond, "%s: the fixed-step methods have none, wanted the events scheme", beyond);
     NEED(m->n_laws >= 1 && m->n_laws <= FW_MAX_LAWS, "%zu abrasion laws: wanted 1 to %d", m->n_laws, (int)FW_MAX_LAWS);
     FW_TRY(check_laws(m, msg));
     NEED(is_in(m->window, 1e-3, 1e9), "window %g s: wanted 1e-3 to 1e9 s", m->window);

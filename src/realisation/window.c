@@ -11,10 +11,7 @@ static const double PLAIN_INLET = -60;
 
 static fw_box ice_need(const fw_window_run *r)
 {
-    double from, half = r->setup.half_width;
-    if (!r->plain) return fw_kernel_needs_ice(r->kernel, r->world);
-    from = fw_plain_needs_ice_from(r->plain, r->world);
-    return (fw_box){from, r->setup.downstream, -half, half};
+    return r->plain ? fw_plain_needs_ice(r->plain, r->world) : fw_kernel_needs_ice(r->kernel, r->world);
 }
 
 static fw_status lay(fw_window_run *r, const fw_scenario *sc, fw_msg *m)
@@ -115,8 +112,6 @@ fw_status fw_window_open(fw_window_run *r, const fw_model *model, const fw_scena
 {
     *r = (fw_window_run){.model = model};
     fw_accuracy_setup(&r->setup, model, sc->speed, sc->speed);
-    FW_CHECK(model->numerics.scheme == FW_SCHEME_EVENTS || !(model->effects & FW_EFFECT_TIDE), m, FW_E_UNSUPPORTED,
-             "the plain methods have no current that changes within a window");
     FW_TRY(fw_weather_init(&r->weather, &r->setup, model, sc, fw_accuracy_warm_up(model, sc->speed), model->window, (int)sc->mix, m));
     r->setup.velocity_scale = r->weather.fastest;
     r->setup.attend = attend, r->setup.attend_self = r;

@@ -110,6 +110,7 @@ static double forecast(const fw_accuracy_run *r, const fw_accuracy_sizes *s, dou
         seconds += (s->way + s->warm_up_way) / sc->speed / (double)r->n;
     }
     double steps = n * seconds / 4e-3 * (pow(2, (double)s->n_steps) - 1);
+    if (fw_model_beyond_fixed_steps(&r->model)) evaluations = 0;
     return cpu_per_metre * (events + domain + percentile) + steps * floes * evaluations * 13e-9;
 }
 

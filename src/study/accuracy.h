@@ -1,7 +1,7 @@
 /* The accuracy study: error against cost of every choice in the numerics, measured on a campaign's own scenes.
  *
- *   step      step level x scheme x wear rule, paired on the same ice; reference: the events scheme at accuracy 0.01 %,
- *             itself checked against embedded reference solutions of single hits
+ *   step      step level x scheme x wear rule, paired on the same ice (fixed steps where they have the campaign's effects);
+ *             reference: the events scheme at accuracy 0.01 %, itself checked against embedded reference solutions of single hits
  *   ring, strip width, downstream, warm-up    one at a time at the chosen step, paired, against the widest
  *   window    scatter of one window under fixed conditions against its length
  *   P90 (the campaign's percentile) against the number of realisations, and what a CPU budget buys

@@ -140,6 +140,28 @@ static void the_current_goes_on_changing(void **state)
     CHECK_RELATIVE(sum[1], sum[2], 0.3);
 }
 
+/* The fixed-step methods step the same ice wherever the wind brings it from: nearly the same load, hit by hit. */
+static void fixed_steps_in_the_wind(void **state)
+{
+    (void)state;
+    for (int turn = 0; turn < 4; turn++) {
+        double sum[2] = {0, 0}, hits[2] = {0, 0};
+        for (int id = 0; id < 6; id++)
+            for (int k = 0; k < 2; k++) {
+                fw_model    m = model(10);
+                fw_scenario sc = {.seed = 5, .id = (uint64_t)id, .concentration = 0.3, .speed = 0.05, .wind_speed = 25, .wind_angle = 0.5 * PI * turn};
+                m.effects |= FW_EFFECT_WIND, m.warm_up = 200;
+                if (k) m.numerics = (fw_numerics){.scheme = FW_SCHEME_VERLET, .step = 4e-3};
+                fw_record r = sound(&m, &sc, "fixed steps");
+                sum[k] += load(&r), hits[k] += r.hits;
+                fw_record_free(&r);
+            }
+        print_message("wind to %3d deg: %g and %g hits, load %.3g and %.3g\n", 90 * turn, hits[0], hits[1], sum[0], sum[1]);
+        CHECK_RELATIVE(sum[1], sum[0], 0.05);
+        CHECK_RELATIVE(hits[1], hits[0], 0.05);
+    }
+}
+
 /* Turned by any angle the ice is another, but the law of it is the same: the ring's centre of load turns along. */
 static void load_turns_with_the_current(void **state)
 {
@@ -192,6 +214,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(none_fails), cmocka_unit_test(none_fails_in_sparse_ice), cmocka_unit_test(strong_wind_over_slow_water),
                                        cmocka_unit_test(the_current_goes_on_changing), cmocka_unit_test(load_turns_with_the_current),
-                                       cmocka_unit_test(records_repeat)};
+                                       cmocka_unit_test(records_repeat), cmocka_unit_test(fixed_steps_in_the_wind)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -208,6 +208,22 @@ static void whole_study(void **state)
     assert_null(a.rows);
 }
 
+/* Ice that crushes, in a tide: the fixed-step methods have neither, and the study goes on without them. */
+static void without_fixed_steps(void **state)
+{
+    (void)state;
+    static double       bearings[24];
+    fw_campaign         c = small_campaign(bearings);
+    fw_accuracy_options o = {.scenario = scenario, .cpu_budget_s = 0};
+    fw_accuracy         a;
+    fw_msg              m = {""};
+    c.model.effects |= FW_EFFECT_CRUSH_CONTACT | FW_EFFECT_TIDE;
+    if (fw_accuracy_study(&a, &c, &o, &m) != FW_OK) fail_msg("%s", m.text);
+    assert_true(find(&a, is_chosen)->evaluations > 0);
+    for (size_t i = 0; i < a.n_rows; i++) assert_int_equal(a.rows[i].numerics.scheme, FW_SCHEME_EVENTS);
+    fw_accuracy_free(&a);
+}
+
 static fw_status stop(void *self, double done)
 {
     (void)done;
@@ -234,6 +250,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hits_are_the_reference), cmocka_unit_test(pairs),       cmocka_unit_test(points),
-        cmocka_unit_test(percentile_error),       cmocka_unit_test(whole_study), cmocka_unit_test(stopped)};
+        cmocka_unit_test(percentile_error),       cmocka_unit_test(whole_study), cmocka_unit_test(without_fixed_steps), cmocka_unit_test(stopped)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
