@@ -10,6 +10,7 @@
 #include "campaign/signals.h"
 #include "cli/config.h"
 #include "effects/effects.h"
+#include "effects/friction.h"
 #include "realisation/accuracy.h"
 
 /* How long before the failure the scene begins [m of the current's way]: the first at which no two floes overlap (a scene starts without a
@@ -17,6 +18,9 @@
 static const double BEFORE[] = {0.5, 2, 5, 10, 20, 40};
 /* It goes on beyond the failure by this way [m]: two listings of the kernel. */
 static const double AFTER = 15;
+
+/* A window's wind may be none, a scene's is refused then: air at rest drags all the same [m/s]. */
+static const double CALM = 1e-9;
 
 static void put_effects(FILE *f, const fw_model *m)
 {
@@ -39,7 +43,7 @@ static void put_contact(FILE *f, const fw_model *k)
     fprintf(f, "damping_ratio: %.17g, friction: %.17g, slip_damping_ratio: %.17g", k->damping_ratio, k->friction, k->slip_damping_ratio);
     if (is_crush || k->stiffness_from_pressure)
         fprintf(f, ", pressure: %.17g Pa, pressure_exponent: %.17g", k->crush.law.pressure, k->crush.law.exponent);
-    if (is_crush) fprintf(f, ", flat: %s", k->crush.has_flat ? "on" : "off");
+    if (is_crush) fprintf(f, ", flat: %s", fw_effects_have(k, FW_EFFECT_ROTATION) && fw_friction_flat_turns(k) ? "on" : "off");
     if (is_crush && k->crush.unloading > 0) fprintf(f, ", unloading_stiffness: %.17g", k->crush.unloading);
     if (fw_effects_have(k, FW_EFFECT_ICE_ON_ICE)) {
         if (!k->stiffness_from_pressure) fprintf(f, ", floe_stiffness: %.17g N/m", k->floe_stiffness);
@@ -52,8 +56,8 @@ static void put_wind(FILE *f, const fw_scene *s)
 {
     const fw_wind *w = &s->model.wind;
     if (!fw_effects_have(&s->model, FW_EFFECT_WIND)) return;
-    double angle = -s->wind_angle * 180 / 3.14159265358979323846; /* anticlockwise to clockwise */
-    fprintf(f, "wind: {speed: %.17g m/s, angle: %.17g deg, air_density: %.17g kg/m3, skin_drag: %.17g, form_drag: %.17g}\n", s->wind_speed,
+    double speed = fmax(s->wind_speed, CALM), angle = -s->wind_angle * 180 / 3.14159265358979323846; /* anticlockwise to clockwise */
+    fprintf(f, "wind: {speed: %.17g m/s, angle: %.17g deg, air_density: %.17g kg/m3, skin_drag: %.17g, form_drag: %.17g}\n", speed,
             remainder(angle, 360), w->density, w->skin_drag, w->form_drag);
 }
 

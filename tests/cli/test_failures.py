@@ -74,6 +74,27 @@ class Failures(unittest.TestCase):
         # it is the same failure: a stiffer spring holds
         self.call("scene", name, "--set", "contact.stiffness=2000 kN/m")
 
+    def check_scenes(self, name, text):
+        pathlib.Path(name + ".yaml").write_text(text.replace("name: soft", f"name: {name}"), encoding="utf-8")
+        failed = self.failed_ids(self.call("run", name + ".yaml"))
+        written = []
+        for one in failed[:4]:
+            self.call("run", name + ".yaml", "--only-id", str(one), code=3)
+            scene = f"{name}.failed-{one}.yaml"
+            if os.path.exists(scene):
+                self.assertIn("a whole radius", self.call("scene", scene, code=3).stderr)
+                written.append(pathlib.Path(scene).read_text(encoding="utf-8"))
+        self.assertTrue(len(written) >= 2, f"{name}: {len(written)} scenes of {failed}")
+        return written
+
+    def test_scenes_that_a_file_would_refuse(self):
+        """A calm that a law of the wind has drawn, and a flat that has no moment since rotation is locked, are no scene as they stand."""
+        calm = "wind: {speed: {values: [0 m/s, 1 m/s], probabilities: [0.99, 0.01]}}\n"
+        self.assertIn("speed: 1.0000000000000001e-09 m/s", self.check_scenes("calm", SOFT + calm)[0])
+        locked = "effects: [floe_contact, friction, form_drag, crush_contact]\n"
+        crush = SOFT.replace("stiffness: 60 kN/m", "law: crush, pressure: 0.02 MPa")
+        self.assertIn("flat: off", self.check_scenes("locked", crush + locked)[0])
+
     def test_failure_is_told_whatever_becomes_of_the_scene(self):
         first = self.failed_ids(self.call("run", "soft.yaml"))[0]
         done = self.call("run", "soft.yaml", "--only-id", str(first), "-o", "missing/x.h5", code=3)
