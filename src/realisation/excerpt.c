@@ -20,12 +20,15 @@ static fw_floe turned(const fw_strip *by, const fw_body *b)
     return (fw_floe){c * b->x + s * b->y, c * b->y - s * b->x, 2 * b->radius, b->thickness, c * b->vx + s * b->vy, c * b->vy - s * b->vx, b->spin};
 }
 
-/* All floes that are awake, and the untouched ones that the current brings near within the scene's duration. */
+/* Way of untouched ice within the scene's duration. */
+static double way_of(const fw_window_run *r, double duration) { return hypot(r->setup.flow.ice_x, r->setup.flow.ice_y) * duration; }
+
+/* All floes that are awake, and the untouched ones that current and wind bring near within the scene's duration. */
 static fw_status gather(const fw_window_run *r, const fw_strip *by, fw_scene *to, fw_msg *m)
 {
     const fw_world *w = r->world;
     size_t          capacity = 0;
-    fw_box          box = fw_window_box(r, to->speed * to->duration);
+    fw_box          box = fw_window_box(r, way_of(r, to->duration));
     fw_strip        strip = fw_strip_of(&r->setup, w);
     for (size_t i = 0; i < w->n_bodies; i++) FW_TRY(add_floe(to, &capacity, turned(by, &w->bodies[i]), m));
     for (size_t q = 0; q < w->n_blocks; q++) {
@@ -42,6 +45,14 @@ static fw_status gather(const fw_window_run *r, const fw_strip *by, fw_scene *to
         }
     }
     return FW_OK;
+}
+
+/* Springs as stiff as pressure and the window's current made them: in a current of f times that, by a pressure of f^(2 - e) times as much,
+ * as k ~ v^2 (v^2 / P)^(-2/e) (physics/crush.h). Where the structure crushes floes by that very pressure, they stay as they are. */
+static void keep_stiffness(fw_model *m, double f)
+{
+    if (!m->stiffness_from_pressure || (m->effects & FW_EFFECT_CRUSH_CONTACT) || f == 1) return;
+    m->crush.law.pressure *= pow(f, 0.5 + 0.5 * m->crush.law.exponent);
 }
 
 /* Along the current of this instant. A scene's lasts. */
@@ -67,11 +78,12 @@ fw_status fw_realise_excerpt(const fw_model *model, const fw_scenario *sc, doubl
     double warm_up = fw_accuracy_warm_up(model, at.speed);
     if (s == FW_OK && warm_up < t) s = fw_window_go(&r, warm_up, t, tick, m);
     if (s == FW_OK) s = fw_window_go(&r, t, t, tick, m);
-    if (s == FW_OK) s = fw_window_feed(&r, at.speed * duration, m);
+    if (s == FW_OK) s = fw_window_feed(&r, way_of(&r, duration), m);
     if (s == FW_OK) {
         fw_strip by = direction_of(&r);
         out->model.effects &= ~(uint32_t)FW_EFFECT_TIDE;
         out->speed = fmax(hypot(r.setup.flow.ux, r.setup.flow.uy), FW_SLOWEST);
+        keep_stiffness(&out->model, out->speed / at.speed);
         out->wind_speed = at.wind_speed, out->wind_angle = at.wind_angle - atan2(by.cy, by.cx);
         s = gather(&r, &by, out, m);
     }

@@ -5,6 +5,7 @@
 
 #include "check.h"
 #include "floewear/realisation.h"
+#include "physics/crush.h"
 
 static const fw_scenario SPARSE = {.seed = 7, .concentration = 0.1, .speed = 0.5};
 
@@ -153,6 +154,42 @@ static void excerpt(void **state)
     assert_true(is_seen);
 }
 
+/* With the wind behind it ice comes three times as fast as the current: all that comes within the scene's time is there. */
+static void excerpt_in_the_wind(void **state)
+{
+    (void)state;
+    fw_model    m;
+    fw_scenario s = {.seed = 3, .id = 1, .concentration = 0.1, .speed = 0.05, .wind_speed = 25};
+    fw_scene    scene;
+    fw_msg      msg = {""};
+    double      farthest = 0, way = (0.05 + 0.003 * 25) * 2000; /* floes drift by 0.4 % of the wind or so */
+    fw_model_defaults(&m);
+    m.effects |= FW_EFFECT_WIND, m.warm_up = 0;
+    if (fw_realise_excerpt(&m, &s, 10, 2000, NULL, &scene, &msg) != FW_OK) fail_msg("%s", msg.text);
+    for (size_t i = 0; i < scene.n_floes; i++) farthest = fmax(farthest, -scene.floes[i].x);
+    assert_true(farthest > way);
+    fw_scene_free(&scene);
+}
+
+/* A scene has one current. In another one than the tide's largest springs from the pressure are as stiff as they were. */
+static void excerpt_keeps_stiffness(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        fw_model    m;
+        fw_scenario s = {.seed = 3, .id = 1, .concentration = 0.1, .speed = 1, .tide_phase = 1};
+        fw_scene    scene;
+        fw_msg      msg = {""};
+        fw_model_defaults(&m);
+        m.effects |= FW_EFFECT_TIDE, m.stiffness_from_pressure = true, m.crush.law.exponent = 0.3 * k;
+        m.window = 60, m.warm_up = 0, m.tide.period = 3600;
+        if (fw_realise_excerpt(&m, &s, 10, 5, NULL, &scene, &msg) != FW_OK) fail_msg("%s", msg.text);
+        CHECK_RELATIVE(scene.speed, cos(1 - 2 * acos(-1) * 20 / 3600), 0.005); /* phase is the middle's */
+        CHECK_RELATIVE(fw_crush_stiffness(&scene.model.crush.law, 2e4, scene.speed, 1.5, 0.9), fw_crush_stiffness(&m.crush.law, 2e4, 1, 1.5, 0.9), 1e-3);
+        fw_scene_free(&scene);
+    }
+}
+
 /* One window of some thousand has an energy balance beyond 1 % at its first try, and the tenth of the tolerances cures it. */
 static void cured_by_finer_steps(void **state)
 {
@@ -218,7 +255,8 @@ static void frames_begin_again(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(too_many_evaluations), cmocka_unit_test(goes_through), cmocka_unit_test(limit_of_both_tries),
-                                       cmocka_unit_test(excerpt), cmocka_unit_test(cured_by_finer_steps),
+                                       cmocka_unit_test(excerpt), cmocka_unit_test(excerpt_in_the_wind), cmocka_unit_test(excerpt_keeps_stiffness),
+                                       cmocka_unit_test(cured_by_finer_steps),
                                        cmocka_unit_test(frames_begin_again)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
