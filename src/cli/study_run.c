@@ -20,15 +20,7 @@ fw_status fw_study_check_place(const char *path, const char *filetype, fw_msg *m
     FW_CHECK(stat(folder, &s) == 0, m, FW_E_IO, "-o: the folder %s cannot be used: %s", folder, strerror(errno));
     FW_CHECK(S_ISDIR(s.st_mode), m, FW_E_IO, "-o: %s is not a folder", folder);
     FW_CHECK(access(folder, W_OK) == 0, m, FW_E_IO, "-o: the folder %s cannot be written: %s", folder, strerror(errno));
-    fw_tables *old = NULL;
-    fw_msg     why = {""};
-    if (stat(path, &s) != 0) return FW_OK;
-    fw_status status = fw_tables_open(&old, path, filetype, &why);
-    fw_tables_close(old);
-    FW_CHECK(status != FW_E_NOMEM, m, status, "%s", why.text); /* that says nothing of the file */
-    FW_CHECK(status == FW_OK, m, FW_E_MISMATCH, "will not replace a file that is no %s study of ours: %s",
-             strrchr(filetype, ' ') ? strrchr(filetype, ' ') + 1 : filetype, why.text);
-    return FW_OK;
+    return fw_tables_check_kind(path, filetype, m);
 }
 
 /* The launcher says so in the environment, whoever's it is. */

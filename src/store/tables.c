@@ -82,8 +82,7 @@ fw_status fw_tables_put(const fw_h5_file *f, const fw_table *t, fw_msg *m)
 
 /* ---- a file of tables alone ------------------------------------------------------------------------------------- */
 
-/* Another kind of file under this name is somebody's work. */
-static fw_status check_kind(const char *path, const char *filetype, fw_msg *m)
+fw_status fw_tables_check_kind(const char *path, const char *filetype, fw_msg *m)
 {
     struct stat s;
     fw_tables  *old = NULL;
@@ -101,7 +100,7 @@ fw_status fw_tables_write(const char *path, const char *filetype, const fw_campa
                           const fw_table *tables, fw_msg *m)
 {
     fw_h5_file f;
-    FW_TRY(check_kind(path, filetype, m));
+    FW_TRY(fw_tables_check_kind(path, filetype, m));
     FW_TRY(fw_h5_file_create(&f, path, m));
     fw_status status = fw_tables_put_root(&f, filetype, TABLES_VERSION, c, m);
     for (size_t i = 0; i < n_tables && status == FW_OK; i++) status = fw_tables_put(&f, &tables[i], m);

@@ -9,6 +9,8 @@
 #define FW_ACCURACY_FILETYPE "floewear accuracy"
 #define FW_EFFECTS_FILETYPE  "floewear effects"
 
+/* Another kind of file under this name is somebody's work: FW_E_MISMATCH. */
+fw_status fw_tables_check_kind(const char *path, const char *filetype, fw_msg *m);
 /* FW_E_IO: unwritable, disk full, in use; FW_E_MISMATCH: path is there and is another kind of file. On error path is as it was. */
 fw_status fw_tables_write(const char *path, const char *filetype, const fw_campaign *c, size_t n_tables,
                           const fw_table *tables, fw_msg *m);

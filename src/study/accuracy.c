@@ -2,7 +2,6 @@
 #include "study/accuracy.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,17 +22,6 @@ static const fw_accuracy_sizes SIZES[] = {
 enum { N_SIZES = sizeof SIZES / sizeof SIZES[0] };
 
 /* ---- what the groups share -------------------------------------------------------------------------------------- */
-
-void fw_accuracy_say(const fw_accuracy_run *r, const char *fmt, ...)
-{
-    char    text[160];
-    va_list ap;
-    if (!r->o->say) return;
-    va_start(ap, fmt);
-    vsnprintf(text, sizeof text, fmt, ap);
-    va_end(ap);
-    r->o->say(r->o->say_self, text);
-}
 
 fw_status fw_accuracy_append(fw_accuracy_run *r, const fw_accuracy_row *row, fw_msg *m)
 {
@@ -119,7 +107,7 @@ static fw_status choose_sizes(fw_accuracy_run *r, fw_msg *m)
 {
     double cpu = 0, way = 0, diameter = 0;
     FW_TRY(choose_windows(r, SIZES[0].n_windows, m));
-    fw_accuracy_say(r, "pilot");
+    FW_ACCURACY_SAY(r, "pilot");
     for (size_t i = 0; i < r->n; i++) {
         fw_model  model = r->model;
         fw_record record;

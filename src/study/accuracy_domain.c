@@ -96,7 +96,7 @@ static fw_status run_group(fw_accuracy_run *r, const struct group *g, fw_msg *m)
         double          *points = k + 1 == n ? r->points_reference : r->points;
         snprintf(row.method, sizeof row.method, "%s", fw_accuracy_group_name(g->group));
         snprintf(row.setting, sizeof row.setting, "%.4g %s", levels[k], g->unit);
-        fw_accuracy_say(r, "%s: %s", row.method, row.setting);
+        FW_ACCURACY_SAY(r, "%s: %s", row.method, row.setting);
         if (k == usual) { /* all groups share this one */
             memcpy(sample, r->usual, r->n * sizeof *sample);
             memcpy(points, r->points_usual, r->n * r->c->points.n * sizeof *points);
@@ -134,7 +134,7 @@ static fw_status run_window_lengths(fw_accuracy_run *r, fw_msg *m)
                                .hit_error = NAN};
         snprintf(row.method, sizeof row.method, "%s", fw_accuracy_group_name(FW_ACCURACY_WINDOW));
         snprintf(row.setting, sizeof row.setting, "%.4g m of ice", row.level);
-        fw_accuracy_say(r, "%s: %s", row.method, row.setting);
+        FW_ACCURACY_SAY(r, "%s: %s", row.method, row.setting);
         fw_accuracy_set_windows(r, row.level, -1);
         FW_TRY(fw_trial_run(r->c, &r->model, r->n, r->windows, r->o->tick, r->sample, NULL, m));
         for (size_t i = 0; i < r->n; i++) r->windows[i].scenario.id += 1u << 20; /* ice that no realisation has */
@@ -156,7 +156,7 @@ static fw_status run_window_lengths(fw_accuracy_run *r, fw_msg *m)
 fw_status fw_accuracy_domain_groups(fw_accuracy_run *r, fw_msg *m)
 {
     fw_accuracy_set_windows(r, r->out->sizes.domain_way, -1);
-    fw_accuracy_say(r, "domain: the default settings");
+    FW_ACCURACY_SAY(r, "domain: the default settings");
     FW_TRY(fw_trial_run(r->c, &r->model, r->n, r->windows, r->o->tick, r->usual, r->points_usual, m));
     r->out->mean_window_s = 0;
     for (size_t i = 0; i < r->n; i++) r->out->mean_window_s += r->windows[i].window / (double)r->n;

@@ -40,7 +40,7 @@ void      fw_accuracy_say_ring(const fw_accuracy_run *r, fw_accuracy_row *row, s
 fw_status fw_accuracy_coarsen(fw_record *record, size_t n_arcs, fw_msg *m);
 
 fw_status fw_accuracy_append(fw_accuracy_run *r, const fw_accuracy_row *row, fw_msg *m);
-void      fw_accuracy_say(const fw_accuracy_run *r, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
+#define FW_ACCURACY_SAY(r, ...) fw_trial_say((r)->o->say, (r)->o->say_self, __VA_ARGS__)
 /* Mean cost of the samples into the row. */
 void      fw_accuracy_cost(fw_accuracy_row *row, size_t n, const fw_trial_sample *s);
 /* Windows of so many metres of ice, and so many before it (< 0: the campaign's own warm-up). */

@@ -95,7 +95,7 @@ static fw_status run_windows(fw_accuracy_run *r, size_t n, fw_record *records, d
     for (size_t id = 0; id < n; id++) {
         fw_scenario sc;
         r->o->scenario(r->c, id, &sc);
-        if (id % 16 == 0) fw_accuracy_say(r, "percentile: window %zu of %zu", id + 1, n);
+        if (id % 16 == 0) FW_ACCURACY_SAY(r, "percentile: window %zu of %zu", id + 1, n);
         FW_TRY(fw_realise(&model, &sc, r->o->tick, &records[id], m));
         cpu += records[id].host_cpu_s;
         simulated += model.window + records[id].warm_up;
@@ -122,7 +122,7 @@ static fw_status add_percentile_rows(fw_accuracy_run *r, size_t n_records, const
     for (size_t n = 4; n <= n_records / 2; n *= 2) {
         fw_accuracy_percentile_row *row = &out->percentile[out->n_percentile++];
         row->n = n;
-        fw_accuracy_say(r, "percentile: sub-sets of %zu", n);
+        FW_ACCURACY_SAY(r, "percentile: sub-sets of %zu", n);
         FW_TRY(fw_accuracy_percentile_error(r->c, n_records, records, p, n, &row->error, &out->percentile_value, m));
         /* well below 1 / (1 - p) windows a percentile is hardly more than the largest window */
         if (!(row->error > 0) || (double)n * (1 - p) < 0.7) continue;

@@ -69,7 +69,7 @@ static fw_status run_setting(fw_accuracy_run *r, fw_accuracy_row *row, fw_msg *m
 {
     fw_model model = r->model;
     model.numerics = row->numerics;
-    fw_accuracy_say(r, "step: %s, %s", row->method, row->setting);
+    FW_ACCURACY_SAY(r, "step: %s, %s", row->method, row->setting);
     FW_TRY(fw_trial_run(r->c, &model, r->n, r->windows, r->o->tick, r->sample, NULL, m));
     row->depth = fw_pairs_compare(r->n, r->sample, r->reference, fw_trial_depth, NULL);
     row->path = fw_pairs_compare(r->n, r->sample, r->reference, fw_trial_path, NULL);
@@ -142,7 +142,7 @@ static fw_status run_reference(fw_accuracy_run *r, fw_msg *m)
 {
     fw_model model = r->model;
     model.accuracy = FW_ACCURACY_SECOND;
-    fw_accuracy_say(r, "step: the reference, accuracy %g %%", 100 * FW_ACCURACY_REFERENCE);
+    FW_ACCURACY_SAY(r, "step: the reference, accuracy %g %%", 100 * FW_ACCURACY_REFERENCE);
     FW_TRY(fw_trial_run(r->c, &model, r->n, r->windows, r->o->tick, r->sample, NULL, m));
     model.accuracy = FW_ACCURACY_REFERENCE;
     FW_TRY(fw_trial_run(r->c, &model, r->n, r->windows, r->o->tick, r->reference, NULL, m));

@@ -2,7 +2,6 @@
 #include "study/effects_ledger.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +10,7 @@
 #include "base/memory.h"
 #include "realisation/accuracy.h"
 #include "study/effects_inside.h"
+#include "study/trial.h"
 
 /* From the smallest. Total ice is what a budget buys and what intervals shrink with; it goes into number and length alike, so that the warm-up (120 m at
  * 1 %) is never most of it, and windows become what a design asks for as the budget grows. */
@@ -39,17 +39,7 @@ typedef struct run {
     double                    squares;       /* of the differences of processor time between the two runs of the campaign's own set */
 } run;
 
-static void say(const run *r, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
-static void say(const run *r, const char *fmt, ...)
-{
-    char    text[160];
-    va_list ap;
-    if (!r->o->say) return;
-    va_start(ap, fmt);
-    vsnprintf(text, sizeof text, fmt, ap);
-    va_end(ap);
-    r->o->say(r->o->say_self, text);
-}
+#define SAY(r, ...) fw_trial_say((r)->o->say, (r)->o->say_self, __VA_ARGS__)
 
 static void take_speed(run *r)
 {
@@ -82,7 +72,7 @@ static fw_status choose_size(run *r, fw_msg *m)
     size_t n_pilot = is_whole ? N_PILOT / 4 : N_PILOT;
     r->out->n_windows = r->o->n_windows, r->out->way = r->o->way;
     if (r->o->n_windows > 0) return FW_OK;
-    say(r, "pilot");
+    SAY(r, "pilot");
     for (size_t i = 0; i < n_pilot; i++) {
         fw_record record;
         FW_TRY(run_window(r, r->c, i, seconds_of(r, is_whole ? INFINITY : SIZES[0].way), &record, m));
@@ -180,7 +170,7 @@ static fw_status run_all(run *r, fw_msg *m)
         FW_TRY(fw_alloc(&arm->row, r->out->n_windows, sizeof *arm->row, "windows of the effects ledger", m));
     }
     for (size_t i = 0; i < r->out->n_windows; i++) {
-        if (i % 8 == 0) say(r, "window %zu of %zu, %zu ways each", i + 1, r->out->n_windows, r->n_ways);
+        if (i % 8 == 0) SAY(r, "window %zu of %zu, %zu ways each", i + 1, r->out->n_windows, r->n_ways);
         FW_TRY(run_ways(r, i, m));
     }
     return FW_OK;

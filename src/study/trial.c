@@ -1,7 +1,20 @@
 #include "study/trial.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
+
+void fw_trial_say(void (*say)(void *self, const char *what), void *self, const char *fmt, ...)
+{
+    char    text[160];
+    va_list ap;
+    if (!say) return;
+    va_start(ap, fmt);
+    vsnprintf(text, sizeof text, fmt, ap);
+    va_end(ap);
+    say(self, text);
+}
 
 static double ring_sum(size_t n, const double *ring)
 {

@@ -26,6 +26,9 @@ typedef struct fw_trial_sample {
 fw_status fw_trial_run(const fw_campaign *c, const fw_model *model, size_t n, const fw_trial_window *windows,
                        const fw_tick *tick, fw_trial_sample *out, double *points, fw_msg *m);
 
+/* What is being run, as printf says it, to whoever wants to know; say may be NULL. */
+void fw_trial_say(void (*say)(void *self, const char *what), void *self, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
+
 /* What the measuring points read of a ring with the current straight on the first of them. to: (c->points.n) */
 void fw_trial_read_points(const fw_campaign *c, size_t n_arcs, const double *ring, double *to);
 
