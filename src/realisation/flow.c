@@ -109,6 +109,10 @@ static fw_status mean_drift(const fw_model *model, int mix, const fw_setup *set,
 fw_status fw_weather_init(fw_weather *w, fw_setup *set, const fw_model *model, const fw_scenario *sc, double start, double duration, int mix,
                           fw_msg *m)
 {
+    FW_CHECK(!set->has_wind || (sc->wind_speed >= 0 && isfinite(sc->wind_speed) && isfinite(sc->wind_angle)), m, FW_E_ARG,
+             "wind of %g m/s to %g rad: wanted finite numbers, and at least 0 m/s", sc->wind_speed, sc->wind_angle);
+    FW_CHECK(!(model->effects & FW_EFFECT_TIDE) || model->tide.n_rows || isfinite(sc->tide_phase), m, FW_E_ARG, "phase of the tide %g rad: wanted a finite number",
+             sc->tide_phase);
     *w = (fw_weather){.speed = sc->speed, .phase = sc->tide_phase, .middle = start + 0.5 * duration, .start = start, .segment = INFINITY};
     if (model->effects & FW_EFFECT_TIDE) {
         double change = fastest_change(&model->tide);

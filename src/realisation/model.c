@@ -72,6 +72,17 @@ static fw_status check_laws(const fw_model *m, fw_msg *msg)
     return FW_OK;
 }
 
+static fw_status check_course(const fw_tide *t, fw_msg *msg)
+{
+    for (size_t i = 0; i < t->n_rows; i++) {
+        const fw_course_row *r = &t->rows[i];
+        NEED(isfinite(r->time) && isfinite(r->factor) && isfinite(r->turn) && (i == 0 || r->time > r[-1].time),
+             "course of the current, row %zu: %g s, factor %g, turn %g rad: wanted times that ascend, and finite numbers", i + 1, r->time, r->factor,
+             r->turn);
+    }
+    return FW_OK;
+}
+
 const char *fw_model_beyond_fixed_steps(const fw_model *m)
 {
     if (m->effects & FW_EFFECT_CRUSH_CONTACT) return "contacts that crush";
@@ -97,6 +108,7 @@ fw_status fw_model_check(const fw_model *m, fw_msg *msg)
     NEED(m->tide.n_rows ? m->tide.rows && m->tide.n_rows <= FW_MAX_COURSE : is_in(m->tide.period, 60, 1e9) && is_in(m->tide.minor_ratio, -1, 1),
          "tide: %zu rows, period %g s, minor ratio %g: wanted at most %d rows, or 60 to 1e9 s and -1 to 1", m->tide.n_rows, m->tide.period,
          m->tide.minor_ratio, (int)FW_MAX_COURSE);
+    FW_TRY(check_course(&m->tide, msg));
     FW_CHECK(FW_OPTIONAL_EFFECTS || !(m->effects & ~(uint32_t)FW_EFFECTS_CORE), msg, FW_E_UNSUPPORTED,
              "this program was built without the optional effects (FLOEWEAR_OPTIONAL_EFFECTS)");
     if ((m->effects & FW_EFFECT_CRUSH_CONTACT) || m->stiffness_from_pressure) {
@@ -114,9 +126,9 @@ fw_status fw_model_check(const fw_model *m, fw_msg *msg)
     const fw_numerics *n = &m->numerics;
     NEED(n->scheme == FW_SCHEME_EVENTS || is_in(n->step, 1e-6, 1), "fixed step %g s: wanted 1e-6 to 1 s", n->step);
     NEED(n->order == 0 || (n->order >= 2 && n->order <= 4), "integrator of order %d: wanted 2, 3 or 4", n->order);
-    NEED(is_in(n->tolerance, 0, 1) && is_in(n->first_step, 0, 10) && is_in(n->growth, 0, 100),
-         "numerics: tolerance %g, first step %g, growth %g: wanted 0 to 1, 10, 100", n->tolerance, n->first_step,
-         n->growth);
+    NEED(is_in(n->tolerance, 0, 1) && is_in(n->wear_tolerance, 0, 1) && is_in(n->first_step, 0, 10) && is_in(n->growth, 0, 100),
+         "numerics: tolerance %g, wear tolerance %g, first step %g, growth %g: wanted 0 to 1, 1, 10, 100", n->tolerance, n->wear_tolerance,
+         n->first_step, n->growth);
     NEED(m->n_arcs >= 72 && m->n_arcs <= 3600, "ring of %zu arcs: wanted 72 to 3600", m->n_arcs);
     NEED(m->n_mixes >= 1 && m->n_mixes <= FW_MAX_MIXES, "%zu thickness mixes: wanted 1 to %d", m->n_mixes,
          (int)FW_MAX_MIXES);

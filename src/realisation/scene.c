@@ -72,6 +72,7 @@ static fw_status simulate(fw_kernel *k, fw_world *w, fw_wear *wear, const fw_wea
 static fw_status check(const fw_scene *scene, const fw_frame_sink *frames, double *fastest, fw_msg *m)
 {
     FW_TRY(fw_model_check(&scene->model, m));
+    FW_CHECK(isfinite(scene->speed), m, FW_E_ARG, "current speed %g m/s: wanted a finite number", scene->speed);
     FW_CHECK(scene->duration > 0 && isfinite(scene->duration), m, FW_E_ARG, "duration %g s: wanted more than 0",
              scene->duration);
     FW_CHECK(!frames || frames->interval > 0, m, FW_E_ARG, "frame interval must be positive");
