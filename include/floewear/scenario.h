@@ -190,7 +190,7 @@ typedef struct fw_model {
     double accuracy;    /* wanted relative discretisation error of a window's depth, 1e-4 .. 0.1 */
     size_t n_arcs;      /* of the ring, >= 72; default 360 */
     double strip_width; /* [m]; <= 0: auto (100 m) */
-    double downstream;  /* floes are forgotten beyond this x [m]; <= 0: auto */
+    double downstream;  /* floes are forgotten this far behind the structure [m]; <= 0: auto */
     double max_evaluations; /* force evaluations that one realisation may take; <= 0: auto, 100 times what is expected of it, 1e9 at least */
     fw_numerics numerics;
 } fw_model;

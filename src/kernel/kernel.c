@@ -70,8 +70,8 @@ fw_box fw_kernel_needs_ice(const fw_kernel *k, const fw_world *w)
     include(&box, 0, 0, r);
     include(&box, -s->horizon * strip.cx, -s->horizon * strip.cy, r);
     if (s->wake_upstream > 0)
-        for (int side = -1; side <= 1; side += 2) {
-            double along = -s->wake_upstream - s->horizon, across = side * s->half_width;
+        for (int corner = 0; corner < 4; corner++) {
+            double along = corner < 2 ? -s->wake_upstream - s->horizon : 0, across = corner % 2 ? s->half_width : -s->half_width;
             include(&box, strip.cx * along - strip.cy * across, strip.cy * along + strip.cx * across, 0);
         }
     for (size_t i = 0; i < w->n_bodies; i++) include(&box, w->bodies[i].x, w->bodies[i].y, w->bodies[i].radius);

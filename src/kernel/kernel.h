@@ -59,7 +59,7 @@ typedef struct fw_setup {
     double margin;          /* a floe in contact is listed anew when it is this far off its line [m] */
     double skin;            /* of the plain method: neighbours are listed up to this gap [m] */
     double half_width;      /* of the strip: untouched floes outside are not there; INFINITY: all */
-    double downstream;      /* floes past this x are forgotten [m]; INFINITY: none */
+    double downstream;      /* floes past this way behind the structure, along the ice's way, are forgotten [m]; INFINITY: none */
     double max_evaluations; /* force evaluations allowed; INFINITY: no limit */
     /* Called between events, every few milliseconds of work; another status than FW_OK ends the step with it. NULL: nobody waits. */
     fw_status (*attend)(void *self);

@@ -1,4 +1,4 @@
-/* Inside the kernel only: an untouched floe becomes an awake one that still drifts with the water. */
+/* Inside the kernel only: an untouched floe becomes an awake one that still drifts freely. */
 #ifndef FW_KERNEL_WAKE_H
 #define FW_KERNEL_WAKE_H
 

@@ -1,7 +1,8 @@
 /* The state of a simulation: awake floes, their contacts, and blocks of ice that nothing has touched yet. Knows no method.
  *
- * Frame: structure at the origin, current along +x. Ice that nothing has touched drifts with the water and needs no
- * arithmetic: it stays in blocks of rows in the ice frame, (x, y) = (X, Y) + drift, until an awake floe comes near. */
+ * Frame: structure at the origin, the window's mean current along +x. Ice that nothing has touched drifts as one (with the water, or the mean
+ * floe's way in the wind) and needs no arithmetic: it stays in blocks of rows in the ice frame, (x, y) = (X, Y) + drift, until an awake floe
+ * comes near. */
 #ifndef FW_WORLD_WORLD_H
 #define FW_WORLD_WORLD_H
 

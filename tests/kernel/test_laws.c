@@ -247,10 +247,29 @@ static void limits_and_failures(void **state)
     close_rig(&r);
 }
 
+/* Ice that is awake upstream of the structure is asked for across the whole strip, whichever way that runs. */
+static void asks_for_all_that_is_awake(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 16; k++) {
+        fw_setup s = setup();
+        double   cx = cos(k * PI / 8), cy = sin(k * PI / 8);
+        s.flow = (fw_flow){.ux = 2 * cx, .uy = 2 * cy, .ice_x = 2 * cx, .ice_y = 2 * cy}, s.wake_upstream = 100;
+        rig    r = open_rig(&s);
+        fw_box box = fw_kernel_needs_ice(r.k, r.w);
+        for (double along = -100; along <= 0; along += 10)
+            for (double across = -50; across <= 50; across += 10) {
+                double x = cx * along - cy * across, y = cy * along + cx * across;
+                assert_true(x >= box.x0 && x <= box.x1 && y >= box.y0 && y <= box.y1);
+            }
+        close_rig(&r);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(free_cluster), cmocka_unit_test(mirror_images),
-                                       cmocka_unit_test(symmetric_at_once), cmocka_unit_test(touches_only), cmocka_unit_test(listing_moves_nothing),
+                                       cmocka_unit_test(symmetric_at_once), cmocka_unit_test(touches_only), cmocka_unit_test(asks_for_all_that_is_awake), cmocka_unit_test(listing_moves_nothing),
                                        cmocka_unit_test(limits_and_failures)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
