@@ -163,6 +163,21 @@ class Plans(InFolder):
         self.assertIn("switched off by the file", why["rotation"])
 
 
+class Readme(InFolder):
+    """Keys that README shows are keys, and call for something."""
+
+    def test_keys_of_the_table(self):
+        text = (SOURCE / "README.md").read_text(encoding="utf-8")
+        keys = re.findall(r"^\| `(\w+): (\{.*?\})`(?=,| \|)", text[text.index("| key | effect |"):], re.M)
+        self.assertGreaterEqual(len(keys), 9)
+        bare = call("plan", HERE / "small.yaml", "--pilot", "0", "--json").stdout
+        for section, value in keys:
+            own = value.replace("{", "{speed: 1 m/s, ", 1) if section == "current" else value
+            done = call("plan", HERE / "small.yaml", "--pilot", "0", "--json", "--set", f"{section}={own}")
+            self.assertEqual((done.returncode, done.stderr), (0, ""), value)
+            self.assertNotEqual(json.loads(done.stdout)["effects"], json.loads(bare)["effects"], value)
+
+
 class OffIsAbsent(InFolder):
     """An effect whose keys stand in the file and that is switched off leaves every number as if there were no such keys."""
 
