@@ -165,7 +165,7 @@ static fw_status forget(fw_kernel *k, fw_msg *m)
         if (!k->is_gone[i] && i < k->n_seated) t->seats[next++] = t->seats[i];
     }
     fw_world_forget(w, k->is_gone);
-    k->n_seated = w->n_bodies;
+    k->n_seated = (size_t)next;
     for (size_t q = 0; q < k->n_clusters; q++)
         for (size_t i = 0; i < k->clusters[q]->n_members; i++) {
             fw_member *e = &k->clusters[q]->members[i];

@@ -1,4 +1,4 @@
-/* The strip of ice that drifts past, along the current through the structure's centre. Untouched floes outside are not
+/* The strip of ice that drifts past, along its way through the structure's centre. Untouched floes outside are not
  * there. */
 #ifndef FW_KERNEL_STRIP_H
 #define FW_KERNEL_STRIP_H

@@ -73,7 +73,7 @@ typedef struct fw_world {
 fw_status fw_world_create(fw_world **out, double structure_radius, fw_msg *m);
 void      fw_world_destroy(fw_world *w);
 
-/* Add an awake floe; fields x, y, vx, vy, spin, radius, thickness, inv_*, drag, name of proto are used. Its kinetic energy
+/* Add an awake floe; fields x, y, vx, vy, spin, radius, thickness, inv_*, drag, air, spin_drag, name of proto are used. Its kinetic energy
  * enters the ledger as inflow. */
 fw_status fw_world_add_body(fw_world *w, const fw_body *proto, fw_msg *m);
 /* Add n untouched floes (arrays are copied). */

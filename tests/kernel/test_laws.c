@@ -247,6 +247,22 @@ static void limits_and_failures(void **state)
     close_rig(&r);
 }
 
+/* Floes that were never seated are no part of what forgetting closes up: who stays flies by no closed form in the wind. */
+static void forgotten_at_the_first_listing(void **state)
+{
+    (void)state;
+    fw_setup s = setup();
+    s.has_wind = s.has_body_forces = true, s.flow.wind_x = 20, s.downstream = 50, s.velocity_scale = 0.1;
+    rig r = open_rig(&s);
+    put(&r, 60, 0, 5, 0.9, 0, 0, 0, 0);
+    put(&r, -20, 0, 5, 0.9, 0, 0, 0, 0);
+    r.w->bodies[1].air = 0.5;
+    while (r.w->t < 10) assert_int_equal(fw_kernel_step(r.k, r.w, &r.wear, 10, NULL), FW_OK);
+    assert_int_equal(r.w->n_bodies, 1);
+    CHECK_RELATIVE(r.w->bodies[0].vx, 0.5 * 400 * 10 * r.w->bodies[0].inv_mass, 0.02); /* it hardly moves yet */
+    close_rig(&r);
+}
+
 /* Ice that is awake upstream of the structure is asked for across the whole strip, whichever way that runs. */
 static void asks_for_all_that_is_awake(void **state)
 {
@@ -269,7 +285,8 @@ static void asks_for_all_that_is_awake(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(free_cluster), cmocka_unit_test(mirror_images),
-                                       cmocka_unit_test(symmetric_at_once), cmocka_unit_test(touches_only), cmocka_unit_test(asks_for_all_that_is_awake), cmocka_unit_test(listing_moves_nothing),
+                                       cmocka_unit_test(symmetric_at_once), cmocka_unit_test(touches_only), cmocka_unit_test(asks_for_all_that_is_awake), cmocka_unit_test(forgotten_at_the_first_listing),
+                                        cmocka_unit_test(listing_moves_nothing),
                                        cmocka_unit_test(limits_and_failures)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
