@@ -62,6 +62,23 @@ FAULTS = {
     "wear falls beside the ring": (
         "abrasion/wear.c", "w->load[l][q][k] = cell[QUAD * l + q] * per_arc;\n", "w->load[l][q][k] = cell[QUAD * l + q] * per_arc * 0.999999;\n", "hit",
         ["wear load on the ring"]),
+    "ice is crushed for nothing": (
+        "kernel/crush_step.c", "*(crushed > 0 ? &to->crushed : &turned) += crushed;", "*(crushed > 0 ? &to->crushed : &turned) += 0;", "crush",
+        ["energy balance"]),
+    "a flat holds for nothing": (
+        "kernel/crush_step.c", "rolling -= hb * M * r->turning[s];", "rolling -= 0;", "crush", ["energy balance"]),
+    "a flat drives": (
+        "kernel/crush_step.c", "rolling -= hb * M * r->turning[s];", "rolling += hb * M * r->turning[s];", "crush",
+        ["energy given by friction", "energy balance"]),
+    "a floe on its flat turns for nothing": (
+        "kernel/crush_step.c", "        turned += per_way / n_flat * (way - (D1 - r->deepest[0]));\n", "        turned = 0;\n", "crush", ["energy balance"]),
+    "a flat's moment has no cap": (
+        "kernel/crush.c", "p->mu * push, hold, &rub, &roll);", "p->mu * push, 3 * hold, &rub, &roll);", "crush", ["tension, or friction"]),
+    "half the wind is not told to the books": (
+        "kernel/forces.c", "m->drag[s][0] += m->air_rate * (set->flow.wind_x - m->V[0])", "m->drag[s][0] += 0.5 * m->air_rate * (set->flow.wind_x - m->V[0])",
+        "weather", ["energy bookkeeping", "momentum bookkeeping"]),
+    "spin is braked more than it is told": (
+        "kernel/forces.c", "m->gained[2] = slows, ", "m->gained[2] = 0.5 * slows, ", "weather", ["energy bookkeeping"]),
 }
 
 
@@ -113,7 +130,7 @@ class Faults(unittest.TestCase):
 
     def test_without_a_fault(self):
         with tempfile.TemporaryDirectory() as place:
-            for what in ("hit", "window"):
+            for what in ("hit", "window", "crush", "weather"):
                 fault = ("kernel/watch.c", '#include "kernel/watch.h"\n', '#include "kernel/watch.h"\n\n', what, [])
                 self.assertEqual(run(fault, pathlib.Path(place)), "FW_OK \n")
 
