@@ -21,7 +21,7 @@ typedef struct command {
 
 static const command main_commands[] = {
     {"run", fw_cmd_run, "floewear run", "run a campaign, alone or under mpirun; run again to go on"},
-    {"plan", fw_cmd_plan, "floewear plan", "effects, accuracy settings, a pilot, predicted cost; no results"},
+    {"plan", fw_cmd_plan, "floewear plan", "effects, accuracy settings, a pilot, predicted cost; --effects: what each effect moves"},
     {"scene", fw_cmd_scene, "floewear scene", "given floes, no sampling: the deterministic kernel alone"},
     {"accuracy", fw_cmd_accuracy, "floewear accuracy", "error against cost, measured on the campaign; run and plan use its choice"},
     {"report", fw_cmd_report, "floewear report", "percentiles with intervals, service life, ledgers of a results file"},

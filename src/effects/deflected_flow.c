@@ -27,7 +27,7 @@ static const char *refuse(const fw_model *m, const fw_scene_facts *f, const char
     if (!fw_effects_have(m, FW_EFFECT_FORM_DRAG) && !fw_effects_have(m, FW_EFFECT_SKIN_DRAG))
         return "the flow acts on floes by its drag alone, and neither form drag nor skin drag is on";
     *key = "current.speed";
-    if (!(f->speed.high > 0)) return "deflected flow is switched on, but there is no current to deflect";
+    if (!(f->speed.high > 0)) return "deflected flow cannot be on: there is no current to deflect";
     return NULL;
 }
 

@@ -24,7 +24,7 @@ static const char *refuse(const fw_model *m, const fw_scene_facts *f, const char
 {
     (void)f;
     *key = "water.form_drag";
-    if (fw_effects_have(m, FW_EFFECT_FORM_DRAG) && !(m->form_drag > 0)) return "form drag is switched on, but its coefficient is 0";
+    if (fw_effects_have(m, FW_EFFECT_FORM_DRAG) && !(m->form_drag > 0)) return "form drag cannot be on: its coefficient is 0";
     return NULL;
 }
 

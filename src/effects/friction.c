@@ -26,9 +26,9 @@ static const char *refuse(const fw_model *m, const fw_scene_facts *f, const char
 {
     if (!fw_effects_have(m, FW_EFFECT_FRICTION)) return NULL;
     *key = "contact.friction";
-    if (!(fw_friction_largest(m, f) > 0)) return "friction is switched on, but its coefficient is 0";
+    if (!(fw_friction_largest(m, f) > 0)) return "friction cannot be on: its coefficient is 0";
     *key = m->damping_ratio > 0 ? "contact.slip_damping_ratio" : "contact.damping_ratio";
-    if (!has_viscous_part(m)) return "friction is switched on, but it acts through its viscous part ct |vt|, and ct is 0";
+    if (!has_viscous_part(m)) return "friction cannot be on: it acts through its viscous part ct |vt|, and ct is 0";
     return NULL;
 }
 

@@ -33,9 +33,9 @@ static const char *refuse(const fw_model *m, const fw_scene_facts *f, const char
         return "contact.stiffness: from_pressure says already how stiff two floes meet, wanted one of them";
     if (!fw_effects_have(m, FW_EFFECT_ICE_ON_ICE)) return NULL;
     *key = "effects";
-    if (!fw_effects_have(m, FW_EFFECT_FLOE_CONTACT)) return "ice_on_ice is switched on, but floes do not touch each other (floe_contact is off)";
+    if (!fw_effects_have(m, FW_EFFECT_FLOE_CONTACT)) return "ice_on_ice cannot be on: floes do not touch each other (floe_contact is off)";
     if (!has_own_stiffness(m, f) && !has_own_friction(m, f))
-        return "ice_on_ice is switched on, but contact.floe_stiffness and contact.floe_friction are the structure's: nothing would change";
+        return "ice_on_ice cannot be on: contact.floe_stiffness and contact.floe_friction are the structure's: nothing would change";
     *key = "contact.floe_friction";
     if (!has_own_stiffness(m, f) && !fw_effects_have(m, FW_EFFECT_FRICTION)) return "ice_on_ice would change the friction alone, and friction is off";
     return NULL;

@@ -29,7 +29,7 @@ static const char *refuse(const fw_model *m, const fw_scene_facts *f, const char
 {
     (void)f;
     *key = "water.skin_drag";
-    if (fw_effects_have(m, FW_EFFECT_SKIN_DRAG) && !(m->skin_drag > 0)) return "skin drag is switched on, but its coefficient is 0";
+    if (fw_effects_have(m, FW_EFFECT_SKIN_DRAG) && !(m->skin_drag > 0)) return "skin drag cannot be on: its coefficient is 0";
     return NULL;
 }
 

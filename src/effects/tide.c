@@ -65,9 +65,9 @@ static const char *refuse(const fw_model *m, const fw_scene_facts *f, const char
     const char *why = fw_effects_given(f, FW_GIVEN_COURSE) ? refuse_course(m, f) : NULL;
     if (why) return why;
     *key = "effects";
-    if (!is_given(f)) return "tide is switched on, but there is neither current.tide nor current.course";
+    if (!is_given(f)) return "tide cannot be on: there is neither current.tide nor current.course";
     *key = "current.speed";
-    if (!(f->speed.high > 0)) return "tide is switched on, but there is no current that could change";
+    if (!(f->speed.high > 0)) return "tide cannot be on: there is no current that could change";
     return NULL;
 }
 

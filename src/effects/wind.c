@@ -62,11 +62,11 @@ static const char *refuse(const fw_model *m, const fw_scene_facts *f, const char
     if (fw_effects_given(f, FW_GIVEN_WIND) && !fw_effects_given(f, FW_GIVEN_WIND_SPEED)) return "there is no wind without wind.speed";
     if (!fw_effects_have(m, FW_EFFECT_WIND)) return NULL;
     *key = "effects";
-    if (!fw_effects_given(f, FW_GIVEN_WIND_SPEED)) return "wind is switched on, but there is no wind.speed";
+    if (!fw_effects_given(f, FW_GIVEN_WIND_SPEED)) return "wind cannot be on: there is no wind.speed";
     *key = "wind.speed";
-    if (!(f->wind_speed.high > 0)) return "wind is switched on, but its speed is 0";
+    if (!(f->wind_speed.high > 0)) return "wind cannot be on: its speed is 0";
     *key = "wind";
-    if (!acts(m)) return "wind is switched on, but it drags nothing: skin drag 0, and form drag 0 or ice without a freeboard";
+    if (!acts(m)) return "wind cannot be on: it drags nothing: skin drag 0, and form drag 0 or ice without a freeboard";
     if (f->n_floes == 0 && !fw_effects_have(m, FW_EFFECT_FORM_DRAG) && !fw_effects_have(m, FW_EFFECT_SKIN_DRAG))
         return "without any drag of the water a field of floes drifts at the wind's own speed";
     return NULL;
