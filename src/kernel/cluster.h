@@ -156,4 +156,14 @@ static inline double fw_pair_signed_normal(const fw_pair *p, size_t s)
     return p->law.k * p->depth[s] + p->law.c * p->rate[s];
 }
 
+/* Local error of a tried step h at a structure contact of member a: of its velocity (x, y, spin), of the closing rate and of the slip. */
+static inline void fw_pair_errors(const fw_pair *p, const fw_member *a, const fw_method *me, double h, double e[3], double *en, double *et)
+{
+    for (int q = 0; q < 3; q++) {
+        e[q] = 0;
+        for (size_t s = 0; s < me->n_stages; s++) e[q] += h * me->e[s] * a->k[s][FW_VX + q];
+    }
+    *en = fabs(p->nx * e[0] + p->ny * e[1]), *et = fabs(p->nx * e[1] - p->ny * e[0] - a->radius * e[2]);
+}
+
 #endif

@@ -132,10 +132,8 @@ double fw_crush_error(const fw_cluster *c, fw_pair *p, const fw_setup *set, doub
     const fw_rim    *r = p->rim;
     const fw_member *a = &c->members[p->a];
     size_t           last = me->n_stages - 1;
-    double           e[3] = {0, 0, 0}, load = 0, wrong = 0;
-    for (int q = 0; q < 3; q++)
-        for (size_t s = 0; s <= last; s++) e[q] += h * me->e[s] * a->k[s][FW_VX + q];
-    double en = fabs(p->nx * e[0] + p->ny * e[1]), et = fabs(p->nx * e[1] - p->ny * e[0] - a->radius * e[2]);
+    double           e[3], en, et, load = 0, wrong = 0;
+    fw_pair_errors(p, a, me, h, e, &en, &et);
     for (size_t s = 0; s <= last; s += last) {
         double slip = fabs(p->slip[s]) + no_slip * set->velocity_scale, N = p->normal[s], b = r->chord[s], D = fw_larger(p->depth[s], r->deepest[s]);
         if (!(N > 0) || !(b > 0)) continue;

@@ -105,7 +105,6 @@ static inline __attribute__((always_inline)) void predict_stage(fw_cluster *c, c
         fw_free_velocity(set, m, hg, fw_relative_speed(m, m->U[0], m->U[1]), false);
         m->V[2] = r[FW_SPIN];
     }
-    if (fw_has_body_forces(set)) fw_forces_predict(c, set, hg);
 }
 
 /* Loops of two and three that are known beforehand. */
@@ -128,7 +127,7 @@ static inline void prepare(fw_pair *p, double hg)
     p->to_rub = -p->law.ct * n * inv;
 }
 
-static void linearise(fw_cluster *c, size_t s, double hg)
+static inline __attribute__((always_inline)) void linearise(fw_cluster *c, size_t s, double hg)
 {
     for (size_t k = 0; k < c->n_pairs; k++) {
         fw_pair   *p = &c->pairs[k];
@@ -162,7 +161,7 @@ static inline double solve_contact(fw_pair *p)
 }
 
 /* Returns the largest change of a velocity. */
-static double sweep(fw_cluster *c)
+static inline __attribute__((always_inline)) double sweep(fw_cluster *c)
 {
     double largest = 0;
     for (size_t k = 0; k < c->n_pairs; k++) largest = fw_larger(largest, solve_contact(&c->pairs[k]));
@@ -180,14 +179,14 @@ static __attribute__((noinline)) double sweep_crushing(fw_cluster *c, size_t s)
 
 /* What the sweeps leave goes to contacts between floes, none to those with the structure: the slip of a floe that rolls is a few mm/s, wear goes with
  * its size, and what is left in it adds up whatever its sign (+1.0 % of depth in 1000 windows at 30 % ice, 0.5 m/s, accuracy 1 %; so 0.0 %). */
-static void settle_structure(fw_cluster *c)
+static inline __attribute__((always_inline)) void settle_structure(fw_cluster *c)
 {
     for (size_t k = 0; k < c->n_pairs; k++)
         if (c->pairs[k].b == FW_WALL) solve_contact(&c->pairs[k]);
 }
 
 /* Drag follows the solved velocity; impulses stay. Returns the largest change of a velocity that was worth it. */
-static inline double renew_drag_in(fw_cluster *c, const fw_setup *set, double hg, double enough, bool is_blown)
+static inline __attribute__((always_inline)) double renew_drag_in(fw_cluster *c, const fw_setup *set, double hg, double enough, bool is_blown)
 {
     double largest = 0;
     for (size_t i = 0; i < c->n_members; i++) {
@@ -214,20 +213,17 @@ static inline double renew_drag_in(fw_cluster *c, const fw_setup *set, double hg
     return largest;
 }
 
-static double renew_drag(fw_cluster *c, const fw_setup *set, double hg, double enough)
-{
-    return fw_has_wind(set) ? renew_drag_in(c, set, hg, enough, true) : renew_drag_in(c, set, hg, enough, false);
-}
-
-bool fw_stage_solve(fw_cluster *c, const fw_books *books, size_t s, double h)
+/* is_plain: no water or wind but the current's drag, and springs alone; that is asked once. */
+static inline __attribute__((always_inline)) bool solve_stage(fw_cluster *c, const fw_books *books, size_t s, double h, bool is_plain)
 {
     const fw_setup *set = books->setup;
     double          hg = h * set->method->gamma, inv = 1 / hg;
-    bool            is_lone = c->n_pairs == 1, is_crush = fw_is_crush(set);
+    bool            is_lone = c->n_pairs == 1, is_crush = !is_plain && fw_is_crush(set), has_forces = !is_plain && fw_has_body_forces(set);
     /* A lone contact is solved by one sweep, so it may as well be solved well: what it leaves, error control pays for. */
     double          enough = (is_lone ? 0.02 : 1) * set->solver_share * set->tolerance * set->velocity_scale;
     if (s == 1) point_to_members(c, set);
     predict(c, set, s, h);
+    if (has_forces) fw_forces_predict(c, set, hg);
     linearise(c, s, hg);
     if (is_crush) fw_crush_linearise(c, s, hg);
     books->world->ledger.force_evaluations += (double)c->n_pairs;
@@ -235,7 +231,7 @@ bool fw_stage_solve(fw_cluster *c, const fw_books *books, size_t s, double h)
     for (int n = 0; n < MAX_SWEEPS && !is_solved; n++) {
         double change = is_crush ? sweep_crushing(c, s) : sweep(c);
         if (!is_lone && !(change < enough) && n % 4 != 3) continue;
-        double drag = set->has_drag ? renew_drag(c, set, hg, enough) : 0;
+        double drag = !set->has_drag ? 0 : !is_plain && fw_has_wind(set) ? renew_drag_in(c, set, hg, enough, true) : renew_drag_in(c, set, hg, enough, false);
         is_solved = !(drag > 0) && (change < enough || is_lone);
     }
     if (is_crush)
@@ -247,7 +243,7 @@ bool fw_stage_solve(fw_cluster *c, const fw_books *books, size_t s, double h)
         for (int q = 0; q < 4; q++) m->k[s][q] = m->V[q], m->k[s][4 + q] = (m->V[q] - m->r[4 + q]) * inv;
         m->drag[s][0] = m->drag_rate * (m->ux - m->V[0]), m->drag[s][1] = m->drag_rate * (m->uy - m->V[1]);
     }
-    if (fw_has_body_forces(set)) fw_forces_end(c, set, s);
+    if (has_forces) fw_forces_end(c, set, s);
     for (size_t k = 0; k < c->n_pairs; k++) {
         fw_pair *p = &c->pairs[k];
         p->normal[s] = p->push * inv;
@@ -258,4 +254,12 @@ bool fw_stage_solve(fw_cluster *c, const fw_books *books, size_t s, double h)
         p->dir[s][0] = p->nx, p->dir[s][1] = p->ny;
     }
     return is_solved;
+}
+
+static __attribute__((noinline)) bool solve_more(fw_cluster *c, const fw_books *books, size_t s, double h) { return solve_stage(c, books, s, h, false); }
+
+bool fw_stage_solve(fw_cluster *c, const fw_books *books, size_t s, double h)
+{
+    const fw_setup *set = books->setup;
+    return fw_has_body_forces(set) || fw_is_crush(set) ? solve_more(c, books, s, h) : solve_stage(c, books, s, h, true);
 }
