@@ -57,17 +57,38 @@ static void course_at(const fw_weather *w, double t, double *x, double *y)
     *x = factor * cos(turn), *y = factor * sin(turn);
 }
 
-/* Largest change of the current per second, over its speed. */
-static double fastest_change(const fw_tide *tide)
+/* Change of the current between two rows, over the scenario's speed. */
+static double change_between(const fw_course_row *a, const fw_course_row *b)
 {
-    if (tide->n_rows == 0) return TWO_PI / tide->period;
-    double most = 0;
-    for (size_t k = 0; k + 1 < tide->n_rows; k++) {
-        const fw_course_row *a = &tide->rows[k], *b = a + 1;
-        double               dt = b->time - a->time, factor = fmax(fabs(a->factor), fabs(b->factor));
-        if (dt > 0) most = fmax(most, hypot(b->factor - a->factor, factor * (b->turn - a->turn)) / dt);
+    return hypot(b->factor - a->factor, fmax(fabs(a->factor), fabs(b->factor)) * (b->turn - a->turn));
+}
+
+/* From row k - 1 to row k? */
+static bool changes(const fw_tide *tide, size_t k) { return k > 0 && k < tide->n_rows && change_between(&tide->rows[k - 1], &tide->rows[k]) > 0; }
+
+typedef struct segment {
+    double middle, end;
+} segment;
+
+/* That t lies in. A table is cut between its rows, each stretch by its own change: a jump within a second costs no more than one within an hour. */
+static segment segment_at(const fw_weather *w, double t)
+{
+    const fw_tide *tide = w->tide;
+    if (tide->n_rows == 0) {
+        double length = w->turn * tide->period / TWO_PI, i = floor(t / length + 1e-9);
+        return (segment){(i + 0.5) * length, (i + 1) * length};
     }
-    return most;
+    const fw_course_row *r = tide->rows;
+    size_t               k = 0;
+    while (k < tide->n_rows && w->start + r[k].time <= t) k++;
+    if (!changes(tide, k)) { /* to where it does */
+        do k++;
+        while (k < tide->n_rows && !changes(tide, k));
+        return (segment){t, k < tide->n_rows ? w->start + r[k - 1].time : INFINITY};
+    }
+    double to = w->start + r[k].time, from = w->start + r[k - 1].time, n = ceil(change_between(&r[k - 1], &r[k]) / w->turn), length = (to - from) / n;
+    double i = fmin(n - 1, floor((t - from) / length + 1e-9));
+    return (segment){from + (i + 0.5) * length, i + 1 < n ? from + (i + 1) * length : to};
 }
 
 /* Largest speed of the current from 0 to t_end, over the scenario's: a window at slack water is to be as accurate as any. */
@@ -113,12 +134,8 @@ fw_status fw_weather_init(fw_weather *w, fw_setup *set, const fw_model *model, c
              "wind of %g m/s to %g rad: wanted finite numbers, and at least 0 m/s", sc->wind_speed, sc->wind_angle);
     FW_CHECK(!(model->effects & FW_EFFECT_TIDE) || model->tide.n_rows || isfinite(sc->tide_phase), m, FW_E_ARG, "phase of the tide %g rad: wanted a finite number",
              sc->tide_phase);
-    *w = (fw_weather){.speed = sc->speed, .phase = sc->tide_phase, .middle = start + 0.5 * duration, .start = start, .segment = INFINITY};
-    if (model->effects & FW_EFFECT_TIDE) {
-        double change = fastest_change(&model->tide);
-        w->tide = &model->tide;
-        w->segment = change > 0 ? TURN * model->accuracy / change : INFINITY;
-    }
+    *w = (fw_weather){.speed = sc->speed, .phase = sc->tide_phase, .middle = start + 0.5 * duration, .start = start, .turn = TURN * model->accuracy};
+    if (model->effects & FW_EFFECT_TIDE) w->tide = &model->tide;
     if (set->has_wind) w->wind_x = sc->wind_speed * cos(sc->wind_angle), w->wind_y = sc->wind_speed * sin(sc->wind_angle);
     if (set->has_wind && mix >= 0) {
         double spread, diameter, through = hypot(w->wind_x - sc->speed, w->wind_y);
@@ -137,8 +154,7 @@ fw_flow fw_weather_flow(const fw_weather *w, double t)
 {
     fw_flow f = {.ux = w->speed, .wind_x = w->wind_x, .wind_y = w->wind_y};
     if (w->tide) {
-        bool is_cut = w->segment < INFINITY;
-        course_at(w, is_cut ? (floor(t / w->segment + 1e-9) + 0.5) * w->segment : t, &f.ux, &f.uy);
+        course_at(w, segment_at(w, t).middle, &f.ux, &f.uy);
         f.ux *= w->speed, f.uy *= w->speed;
     }
     f.ice_x = f.ux + w->drift * (f.wind_x - f.ux), f.ice_y = f.uy + w->drift * (f.wind_y - f.uy);
@@ -147,5 +163,5 @@ fw_flow fw_weather_flow(const fw_weather *w, double t)
 
 double fw_weather_segment_end(const fw_weather *w, double t)
 {
-    return w->segment < INFINITY ? (floor(t / w->segment + 1e-9) + 1) * w->segment : INFINITY;
+    return w->tide ? segment_at(w, t).end : INFINITY;
 }

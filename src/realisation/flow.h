@@ -14,7 +14,7 @@ typedef struct fw_weather {
     double         speed;         /* [m/s] */
     double         phase, middle; /* of the ellipse [rad] at this time [s] */
     double         start;         /* the table's 0 [s] */
-    double         segment;       /* [s]; INFINITY: nothing changes */
+    double         turn;          /* change of the current from one segment to the next, over its speed */
     double         wind_x, wind_y; /* [m/s] */
     double         fastest;        /* current of the whole course, or ice that the wind drives through it [m/s] */
     double         drift;         /* free drift of the mean floe through the water, over the wind's speed through it */

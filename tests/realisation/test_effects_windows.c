@@ -4,6 +4,7 @@
 
 #include "check.h"
 #include "floewear/realisation.h"
+#include "realisation/flow.h"
 
 static const double PI = 3.14159265358979323846;
 enum { N_WINDOWS = 6 };
@@ -119,8 +120,7 @@ static void strong_wind_over_slow_water(void **state)
     }
 }
 
-/* A course that falls to nothing does so whatever the segments are that it is cut into. 192 s make segments of 0.96 s, the 125th of which ends a
- * rounding after the warm-up of 120 s. */
+/* A course that falls to nothing does so whatever the segments are that it is cut into. */
 static void the_current_goes_on_changing(void **state)
 {
     (void)state;
@@ -138,6 +138,51 @@ static void the_current_goes_on_changing(void **state)
     print_message("to nothing in 191, 192, 193 s: %.3g, %.3g, %.3g\n", sum[0], sum[1], sum[2]);
     CHECK_RELATIVE(sum[1], sum[0], 0.3);
     CHECK_RELATIVE(sum[1], sum[2], 0.3);
+}
+
+/* The same of a tide whose 115th segment ends where the window begins, but for a rounding either way. */
+static void the_tide_goes_on_turning(void **state)
+{
+    (void)state;
+    double sum[3] = {0, 0, 0};
+    for (int k = 0; k < 3; k++)
+        for (int id = 0; id < 3; id++) {
+            fw_model    m = model(3);
+            fw_scenario sc = {.seed = 7, .id = (uint64_t)id, .concentration = 0.4, .speed = 1, .tide_phase = PI / 4};
+            m.effects |= FW_EFFECT_TIDE, m.tide.period = 720, m.warm_up = 115 * (0.005 * 720 / (2 * PI));
+            if (k != 1) m.warm_up = nextafter(m.warm_up, k ? INFINITY : 0);
+            fw_record r = sound(&m, &sc, "tide to slack water");
+            sum[k] += load(&r);
+            fw_record_free(&r);
+        }
+    print_message("to slack water from a rounding before, at, after: %.3g, %.3g, %.3g\n", sum[0], sum[1], sum[2]);
+    CHECK_RELATIVE(sum[0], sum[1], 0.1);
+    CHECK_RELATIVE(sum[2], sum[1], 0.1);
+}
+
+/* A current that jumps within a second is cut up there and nowhere else; each segment has the course's value at its middle. */
+static void segments_follow_the_course(void **state)
+{
+    (void)state;
+    static fw_course_row rows[] = {{0, 1, 0}, {900, 1, 0}, {901, -1, 0}, {1800, -1, 1}};
+    fw_model             m = model(40);
+    fw_scenario          sc = {.speed = 2};
+    fw_setup             set = {0};
+    fw_weather           w;
+    m.effects |= FW_EFFECT_TIDE, m.tide.rows = rows, m.tide.n_rows = 4;
+    assert_int_equal(fw_weather_init(&w, &set, &m, &sc, 60, m.window, -1, NULL), FW_OK);
+    double n = 0, t = 0, end, ux = 2, uy = 0;
+    for (; (end = fw_weather_segment_end(&w, t)) < INFINITY; t = end, n++) {
+        fw_flow f = fw_weather_flow(&w, t);
+        double  at = 0.5 * (t + end) - 60, factor = at < 900 ? 1 : at < 901 ? 1 - 2 * (at - 900) : -1, turn = at < 901 ? 0 : (at - 901) / 899;
+        assert_true(end > t && hypot(f.ux - ux, f.uy - uy) <= 2 * 0.005 * 1.001);
+        CHECK_NEAR(f.ux, 2 * factor * cos(turn), 1e-9);
+        CHECK_NEAR(f.uy, 2 * factor * sin(turn), 1e-9);
+        ux = f.ux, uy = f.uy;
+    }
+    CHECK_NEAR(t, 1860, 0);
+    CHECK_NEAR(n, 1 + 2 / 0.005 + 1 / 0.005, 1); /* warm-up and the first 15 minutes are one */
+    CHECK_NEAR(fw_weather_flow(&w, 5000).ux, -2 * cos(1), 1e-9);
 }
 
 /* The fixed-step methods step the same ice wherever the wind brings it from: nearly the same load, hit by hit. */
@@ -213,7 +258,8 @@ static void records_repeat(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(none_fails), cmocka_unit_test(none_fails_in_sparse_ice), cmocka_unit_test(strong_wind_over_slow_water),
-                                       cmocka_unit_test(the_current_goes_on_changing), cmocka_unit_test(load_turns_with_the_current),
+                                       cmocka_unit_test(the_current_goes_on_changing), cmocka_unit_test(the_tide_goes_on_turning),
+                                       cmocka_unit_test(segments_follow_the_course), cmocka_unit_test(load_turns_with_the_current),
                                        cmocka_unit_test(records_repeat), cmocka_unit_test(fixed_steps_in_the_wind)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
