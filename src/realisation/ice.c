@@ -98,7 +98,7 @@ static fw_status supply(fw_ice *ice, fw_world *w, const fw_box *need, bool is_st
 }
 
 fw_status fw_ice_lay(fw_ice *ice, const fw_field_settings *s, fw_world *w, double half_width, double past,
-                     double warm_up_way, bool comes_from_anywhere, fw_msg *m)
+                     double warm_up_way, fw_ice_way way, fw_msg *m)
 {
     memset(ice, 0, sizeof *ice);
     FW_TRY(fw_field_create(&ice->field, s, m));
@@ -109,9 +109,9 @@ fw_status fw_ice_lay(fw_ice *ice, const fw_field_settings *s, fw_world *w, doubl
     ice->past = past + w->max_radius;
     w->drift_x = -0.5 * ice->length + (USUAL_WARM_UP - warm_up_way);
     ice->next_column = (int64_t)floor((ice->past - w->drift_x) / ice->length);
-    ice->comes_from_anywhere = comes_from_anywhere;
+    ice->way = way;
     fw_box need = {-w->structure_radius, w->structure_radius, 0, 0};
-    return comes_from_anywhere ? fw_ice_around(ice, w, &need, m) : supply(ice, w, &need, true, m);
+    return way == FW_ICE_ALONG ? supply(ice, w, &need, true, m) : fw_ice_around(ice, w, &need, m);
 }
 
 fw_status fw_ice_feed(fw_ice *ice, fw_world *w, const fw_box *need, fw_msg *m)
@@ -119,7 +119,7 @@ fw_status fw_ice_feed(fw_ice *ice, fw_world *w, const fw_box *need, fw_msg *m)
     FW_CHECK(need->x0 > -MAX_REACH, m, FW_E_NUMERIC,
              "the pile of disturbed floes reaches %.0f m upstream at t = %.6g s: more than %.0f m", -need->x0, w->t,
              MAX_REACH);
-    if (ice->comes_from_anywhere) return fw_ice_around(ice, w, need, m);
+    if (ice->way != FW_ICE_ALONG) return fw_ice_around(ice, w, need, m);
     FW_TRY(supply(ice, w, need, false, m));
     drop_columns(ice, w);
     return FW_OK;

@@ -6,8 +6,8 @@
  * Nothing upstream is an inlet: ice is made as far as the disturbance reaches, however far that is. Nor is the strip's width paid for:
  * a row of tiles is made when a disturbed floe comes near it.
  *
- * A current that turns, or wind across it, brings ice from the sides and may bring it back: then tiles come where they are needed and are dropped
- * half a tile past that (ice_around.c). Ice that was dropped comes back undisturbed, ice that was not as it was left; floes that were forgotten
+ * A current that turns, or wind across it, brings ice from the sides, and the former brings it back: then tiles come where they are needed and are
+ * dropped half a tile past that (ice_around.c). Ice that was dropped comes back undisturbed, ice that was not as it was left; floes that were forgotten
  * downstream do not. */
 #ifndef FW_REALISATION_ICE_H
 #define FW_REALISATION_ICE_H
@@ -15,6 +15,12 @@
 #include "field/field.h"
 #include "kernel/kernel.h"
 #include "world/world.h"
+
+typedef enum fw_ice_way {
+    FW_ICE_ALONG,   /* towards +x */
+    FW_ICE_ACROSS,  /* towards +x and to a side: what has passed may be forgotten */
+    FW_ICE_ANYWHERE /* and back */
+} fw_ice_way;
 
 typedef struct fw_ice {
     fw_field *field;       /* owned */
@@ -27,8 +33,8 @@ typedef struct fw_ice {
     struct fw_ice_column {
         int64_t name, low, high; /* rows low .. high are in the world */
     } *columns; /* (n_columns) in the world, newest last */
+    fw_ice_way way;
     /* Instead of columns, where ice comes from other sides too: */
-    bool   comes_from_anywhere;
     size_t n_placed, placed_capacity;
     struct fw_ice_placed {
         int64_t  column, row;
@@ -39,7 +45,7 @@ typedef struct fw_ice {
 /* Lays the first columns round the structure: what would lie on it is not there. half_width: of the strip; warm_up_way: way of the current
  * before the window, which begins on the same ice whatever that is [m]. */
 fw_status fw_ice_lay(fw_ice *ice, const fw_field_settings *s, fw_world *w, double half_width, double past,
-                     double warm_up_way, bool comes_from_anywhere, fw_msg *m);
+                     double warm_up_way, fw_ice_way way, fw_msg *m);
 /* To be called before every step with what that needs (kernel frame). */
 fw_status fw_ice_feed(fw_ice *ice, fw_world *w, const fw_box *need, fw_msg *m);
 void      fw_ice_free(fw_ice *ice);

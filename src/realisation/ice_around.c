@@ -60,6 +60,7 @@ fw_status fw_ice_around(fw_ice *ice, fw_world *w, const fw_box *need, fw_msg *m)
     for (int64_t c = columns.high; c >= columns.low; c--)
         for (int64_t k = rows.low; k <= rows.high; k++)
             if (!is_placed(ice, c, k)) FW_TRY(place(ice, w, c, k, m));
+    if (ice->way == FW_ICE_ACROSS) fw_field_forget(ice->field, columns.high + 2);
     w->ice_from = (double)columns.low * L + r, w->ice_to = (double)(columns.high + 1) * L - r;
     w->ice_low = ((double)rows.low - 0.5) * L + r, w->ice_high = ((double)rows.high + 0.5) * L - r;
     return FW_OK;

@@ -28,8 +28,8 @@ static fw_status lay(fw_window_run *r, const fw_scenario *sc, fw_msg *m)
         FW_TRY(fw_plain_create(&r->plain, &r->setup, &r->model->numerics, PLAIN_INLET, m));
     else
         FW_TRY(fw_kernel_create(&r->kernel, &r->setup, m));
-    return fw_ice_lay(&r->ice, &f, r->world, r->setup.half_width, r->setup.downstream,
-                      sc->speed * fw_accuracy_warm_up(r->model, sc->speed), r->weather.tide || r->setup.flow.ice_y != 0 || r->setup.flow.ice_x < 0, m);
+    fw_ice_way way = r->weather.tide || r->setup.flow.ice_x < 0 ? FW_ICE_ANYWHERE : r->setup.flow.ice_y != 0 ? FW_ICE_ACROSS : FW_ICE_ALONG;
+    return fw_ice_lay(&r->ice, &f, r->world, r->setup.half_width, r->setup.downstream, sc->speed * fw_accuracy_warm_up(r->model, sc->speed), way, m);
 }
 
 /* How many floes are awake, and how far the jam has grown against the current. Where floes are awake before anything touches them those are no

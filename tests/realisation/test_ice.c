@@ -54,7 +54,7 @@ static void empty_tiles_come_and_go(void **state)
     fw_ice            ice;
     fw_box            need = {400, 480, -50, 50}; /* far from the structure, which would swallow some */
     assert_int_equal(fw_world_create(&w, 3.7, NULL), FW_OK);
-    assert_int_equal(fw_ice_lay(&ice, &s, w, 50, 16, 120, true, NULL), FW_OK);
+    assert_int_equal(fw_ice_lay(&ice, &s, w, 50, 16, 120, FW_ICE_ANYWHERE, NULL), FW_OK);
     size_t all = 0, n_twice;
     for (int k = 0; k < 400; k++) {
         w->drift_x += k % 20 == 0 ? 230 : 0, w->drift_y = 150 * sin(0.31 * k);
@@ -69,8 +69,31 @@ static void empty_tiles_come_and_go(void **state)
     fw_world_destroy(w);
 }
 
+/* Aslant, for a long way: tiles that have passed are forgotten, the rest is as ever. */
+static void passes_aslant(void **state)
+{
+    (void)state;
+    fw_model m;
+    fw_model_defaults(&m);
+    fw_field_settings s = {.seed = 3, .id = 2, .concentration = 0.05, .mix = &m.mixes[0], .size_law = m.size_law};
+    fw_world         *w;
+    fw_ice            ice;
+    size_t            n_twice;
+    assert_int_equal(fw_world_create(&w, 3.7, NULL), FW_OK);
+    assert_int_equal(fw_ice_lay(&ice, &s, w, 50, 16, 120, FW_ICE_ACROSS, NULL), FW_OK);
+    for (int k = 0; k < 400; k++) {
+        fw_box need = {-400 - 100 * sin(k), -320, -50, 50 + 80 * cos(k)}; /* disturbed ice reaches farther and less far */
+        w->drift_x += 15, w->drift_y -= 6;
+        assert_int_equal(fw_ice_feed(&ice, w, &need, NULL), FW_OK);
+        assert_int_equal(count(w, &need, &n_twice), count_tiles(&s, w->drift_x, w->drift_y, &need));
+        assert_int_equal(n_twice, 0);
+    }
+    fw_ice_free(&ice);
+    fw_world_destroy(w);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(empty_tiles_come_and_go)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(empty_tiles_come_and_go), cmocka_unit_test(passes_aslant)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
