@@ -30,7 +30,7 @@ typedef struct fw_setup {
     double           structure_radius; /* [m] */
     fw_flow          flow;
     fw_contact_law   contact, floe_contact; /* with the structure; between floes */
-    bool             has_floe_contact, has_drag, has_rotation, has_friction;
+    bool             has_floe_contact, has_drag, has_rotation;
     bool             has_body_forces; /* any of the next three */
     bool             has_wind, has_deflection, has_spin_drag, has_added_mass;
     double           ice_density, water_density; /* [kg/m3] of woken floes and what they swim in */

@@ -95,7 +95,6 @@ void fw_accuracy_setup(fw_setup *s, const fw_model *m, double speed, double velo
         .has_floe_contact = (m->effects & FW_EFFECT_FLOE_CONTACT) != 0,
         .has_drag = has_drag || has_skin,
         .has_rotation = (m->effects & FW_EFFECT_ROTATION) != 0,
-        .has_friction = has_friction,
         .has_body_forces = (m->effects & (FW_EFFECT_WIND | FW_EFFECT_DEFLECTED_FLOW | FW_EFFECT_SKIN_DRAG)) != 0,
         .has_wind = (m->effects & FW_EFFECT_WIND) != 0,
         .has_deflection = (m->effects & FW_EFFECT_DEFLECTED_FLOW) != 0,

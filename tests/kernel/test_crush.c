@@ -25,7 +25,6 @@ static fw_setup setup(bool has_flat, double speed)
                       .floe_contact = {2e6, 1, 0.1, 1},
                       .has_drag = true,
                       .has_rotation = true,
-                      .has_friction = true,
                       .ice_density = 900,
                       .is_crush = true,
                       .crush = {.law = p, .unloading = fw_crush_unloading(&p, exp(-2)), .has_flat = has_flat},

@@ -15,7 +15,6 @@ static fw_setup setup(void)
                       .floe_contact = {2e6, 1, 0.1, 1},
                       .has_floe_contact = true,
                       .has_rotation = true,
-                      .has_friction = true,
                       .ice_density = 900,
                       .method = FW_METHOD_TRBDF2,
                       .tolerance = 1e-5, .energy_tolerance = 0.01,

@@ -26,7 +26,6 @@ static fw_setup setup(double zeta, double mu, double slip_ratio)
                       .floe_contact = {K, zeta, mu, slip_ratio},
                       .has_drag = true,
                       .has_rotation = true,
-                      .has_friction = true,
                       .ice_density = 900,
                       .method = FW_METHOD_ARK3,
                       .is_lone_exact = true,

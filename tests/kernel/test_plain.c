@@ -21,7 +21,6 @@ static fw_setup setup(void)
                       .has_floe_contact = true,
                       .has_drag = true,
                       .has_rotation = true,
-                      .has_friction = true,
                       .ice_density = 900,
                       .drag_per_area = 0.5 * 1025 * 10,
                       .velocity_scale = 2,
@@ -112,7 +111,7 @@ static void head_on(void **state)
 {
     (void)state;
     fw_setup s = setup();
-    s.has_drag = s.has_friction = false, s.drag_per_area = 0, s.contact.friction = 0;
+    s.has_drag = false, s.drag_per_area = 0, s.contact.friction = 0;
     double w = sqrt(2e6 / mass()), v = 2, t0 = 0.1 / w, t1 = 1.5 / w;
     double d0 = fw_contact_critical_depth(w, v, t0), d1 = fw_contact_critical_depth(w, v, t1);
     for (size_t k = 0; k < 3; k++) {

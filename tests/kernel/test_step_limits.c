@@ -101,7 +101,7 @@ static outcome explicit_run(const scene *s, double mu, double dt)
 {
     const fw_abrasion_law law = {"bekker2011", 0.116, 1.121, true};
     fw_setup              set = {.structure_radius = RS, .flow = {.ux = 2, .ice_x = 2}, .contact = {K, 1, mu, 1}, .floe_contact = {K, 1, mu, 1}, .has_floe_contact = true, .has_drag = true,
-                                 .has_rotation = true, .has_friction = true, .ice_density = 900, .drag_per_area = 5125, .velocity_scale = 2, .skin = 2,
+                                 .has_rotation = true, .ice_density = 900, .drag_per_area = 5125, .velocity_scale = 2, .skin = 2,
                                  .half_width = INFINITY, .downstream = INFINITY, .max_evaluations = INFINITY};
     fw_numerics           n = {.scheme = FW_SCHEME_EULER, .wear_rule = FW_WEAR_HERMITE, .step = dt};
     fw_plain             *p;
