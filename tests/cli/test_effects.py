@@ -12,67 +12,34 @@ import resource
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
+
+sys.dont_write_bytecode = True
+from program import PROGRAM, SOURCE, InFolder, call  # noqa: E402
 
 try:
     import h5py
 except ImportError:  # building and using the program do not need it
     h5py = None
 
-PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 CAMPAIGN = SOURCE / "tests/cli/commands/dense.yaml"
 CORE = ["floe_contact", "friction", "rotation", "form_drag"]
 CHOICES = ["water.form_drag", "contact.friction", "contact.friction", "contact.stiffness", "contact.stiffness", "contact.slip_damping_ratio",
            "ice.temperature"]
 
 
-def environment(words):
-    """In a sanitizer build every command counts its leaks, except the one that starts Open MPI: that leaves some behind."""
-    return {**os.environ, "ASAN_OPTIONS": "detect_leaks=0"} if words[:1] == ("run",) else dict(os.environ)
-
-
-def call(*words, **more):
-    more.setdefault("env", environment(words))
-    more.setdefault("timeout", 240)
-    return subprocess.run([PROGRAM, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
-                          text=True, check=False, **more)
-
-
 def has_key(key):
     return key in call("keys").stdout
 
 
-class InFolder(unittest.TestCase):
-    made = None  # (bytes of dense.effects.h5, what --json printed)
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        os.chdir(folder.name)
-        self.addCleanup(os.chdir, "/")
-
+class Made(InFolder):
     def fetch(self):
         """dense.effects.h5 of a ledger that is made once; its JSON."""
-        if InFolder.made is None:
-            done = call("plan", CAMPAIGN, "--effects", "--effects-budget", "1s", "--json", "--quiet")
-            self.assertEqual((done.returncode, done.stderr), (0, ""))
-            self.assertEqual([p.name for p in pathlib.Path(".").iterdir()], ["dense.effects.h5"])
-            InFolder.made = pathlib.Path("dense.effects.h5").read_bytes(), json.loads(done.stdout)
-        pathlib.Path("dense.effects.h5").write_bytes(InFolder.made[0])
-        return InFolder.made[1]
-
-    def refuse(self, code, *words, piece, **more):
-        before = {p.name: p.read_bytes() for p in pathlib.Path(".").iterdir()}
-        done = call(*words, **more)
-        self.assertEqual(done.returncode, code, (words, done.stderr))
-        self.assertEqual(done.stdout, "", words)
-        self.assertIn(piece, done.stderr)
-        self.assertEqual(before, {p.name: p.read_bytes() for p in pathlib.Path(".").iterdir()}, "a refused command writes nothing")
+        return self.fetch_made("dense.effects.h5", "plan", CAMPAIGN, "--effects", "--effects-budget", "1s")
 
 
-class Ledger(InFolder):
+class Ledger(Made):
     def test_what_is_printed(self):
         out = self.fetch()
         rows = out["effects_ledger"]
@@ -163,7 +130,7 @@ class Ledger(InFolder):
         self.refuse(4, "plan", CAMPAIGN, "--effects", "--effects-budget", "0.1s", "-q", piece="dense.effects.h5", preexec_fn=limit)
 
 
-class Use(InFolder):
+class Use(Made):
     def test_plan_shows_it(self):
         out = self.fetch()
         bare = json.loads(call("plan", CAMPAIGN, "--pilot", "0", "--json", "-o", "elsewhere").stdout)
@@ -216,7 +183,7 @@ class Use(InFolder):
         self.assertIn("effects: not used", done.stderr)
 
 
-class LeaveOut(InFolder):
+class LeaveOut(Made):
     """Under a tolerance of 100 % floe contact may go: it is dear, and moves less."""
 
     def setUp(self):
