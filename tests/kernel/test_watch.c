@@ -147,6 +147,21 @@ static void energy_is_out(void **state)
     assert_false(fw_watch_step(&r.c, &s, 0.01));
 }
 
+/* What errors leave of next to no dissipation may be less than nothing: no step is out for that. */
+static void energy_of_nothing(void **state)
+{
+    (void)state;
+    fw_member  floe = {.mass = 500};
+    fw_cluster c = {.n_members = 1, .members = &floe, .n_pairs = 1, .omega = 100, .dissipated = -5};
+    fw_pair    pair = {0};
+    fw_setup   s = setup();
+    c.pairs = &pair;
+    c.tried.drag_work = 1e-9;
+    assert_false(fw_watch_step(&c, &s, 0.01));
+    c.tried.drag_work = 1; /* 1e-3 of 1 kJ: its share of 2 % */
+    assert_true(fw_watch_step(&c, &s, 0.01));
+}
+
 static void floes_are_counted(void **state)
 {
     (void)state;
@@ -157,6 +172,6 @@ static void floes_are_counted(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(bodies),        cmocka_unit_test(overlaps),      cmocka_unit_test(late_touches),
-                                       cmocka_unit_test(slip_chatters), cmocka_unit_test(energy_is_out), cmocka_unit_test(floes_are_counted)};
+                                       cmocka_unit_test(slip_chatters), cmocka_unit_test(energy_is_out), cmocka_unit_test(energy_of_nothing), cmocka_unit_test(floes_are_counted)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
