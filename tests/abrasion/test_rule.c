@@ -1,43 +1,12 @@
-#include "abrasion/rule.h"
-#include "check.h"
+#include "abrasion/interval_rates.h"
 #include "geometry/lens.h"
 
-/* Wear rules against fine quadratures. The contact is the head-on, critically damped closed form, d = v t exp(-wt),
- * N = m w v exp(-wt) (2 - wt), with a slip put on that dies away as friction makes it. */
-static const double MASS = 2209, V = 2, R = 1.25, RS = 3.7, H = 0.5;
-static const double STAGE[3] = {0, 0.58578643762690495, 1};
+/* Wear rules against fine quadratures. */
 
-static double omega(void) { return sqrt(2e6 / MASS); }
-static double depth_at(double t) { return V * t * exp(-omega() * t); }
-static double force_at(double t) { return MASS * omega() * V * exp(-omega() * t) * (2 - omega() * t); }
-static double slip_at(double t) { return 0.3 * exp(-1.5 * omega() * t); }
-
-static fw_wear_interval interval(double t0, double t1)
-{
-    fw_wear_interval iv = {.length = t1 - t0, .since_touch = t0, .n_stages = 3, .radius = R, .thickness = H};
-    for (int q = 0; q < 2; q++) {
-        double t = q ? t1 : t0;
-        iv.depth[q] = depth_at(t), iv.rate[q] = V * exp(-omega() * t) * (1 - omega() * t);
-    }
-    for (int q = 0; q < 3; q++) {
-        double t = t0 + STAGE[q] * (t1 - t0);
-        iv.at[q] = STAGE[q], iv.normal[q] = force_at(t), iv.slip[q] = slip_at(t);
-    }
-    return iv;
-}
-
-/* The rates at a share u of the interval, from the interval's own values: Lagrange and Hermite in their textbook forms. */
 static void rates(const fw_wear_interval *iv, double m, double u, double *along, double *wall)
 {
-    double n = 0, s = 0, a = 1 - u, h = iv->length;
-    for (int i = 0; i < 3; i++) {
-        double p = 1;
-        for (int j = 0; j < 3; j++)
-            if (j != i) p *= (u - iv->at[j]) / (iv->at[i] - iv->at[j]);
-        n += p * iv->normal[i], s += p * iv->slip[i];
-    }
-    double d = a * a * ((1 + 2 * u) * iv->depth[0] + u * h * iv->rate[0]) +
-               u * u * ((1 + 2 * a) * iv->depth[1] - a * h * iv->rate[1]);
+    double n, s, d;
+    values_at(iv, u, &n, &s, &d);
     *along = *wall = 0;
     if (!(n > 0) || !(d > 0)) return;
     double b = fw_lens_chord(d, iv->radius, RS);
