@@ -2,19 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "check.h"
 #include "kernel/crush_rim.h"
-
-#define PI 3.14159265358979323846
+#include "kernel/rig.h"
 
 static const double RS = 3.7, D = 2.5, H = 0.5, P = 1.1e6, V = 2;
-
-typedef struct rig {
-    fw_setup   s;
-    fw_world  *w;
-    fw_kernel *k;
-    fw_wear    wear;
-} rig;
 
 static fw_setup setup(bool has_flat, double speed)
 {
@@ -49,32 +40,12 @@ static fw_setup setup(bool has_flat, double speed)
 /* A floe 0.3 m before the touch. */
 static rig start(fw_setup s, double y, double drag)
 {
-    rig                   r = {.s = s};
-    const fw_abrasion_law law = {"bekker2011", 0.116, 1.121, true};
-    double                m = 900 * PI * D * D / 4 * H, reach = RS + D / 2;
+    rig    r = open_rig(&s);
+    double m = 900 * PI * D * D / 4 * H, reach = RS + D / 2;
     fw_body b = {.x = -sqrt(reach * reach - y * y) - 0.3, .y = y, .vx = V, .radius = D / 2, .thickness = H, .inv_mass = 1 / m, .inv_inertia = 8 / (m * D * D), .drag = drag * D * H};
-    assert_int_equal(fw_wear_init(&r.wear, RS, 360, 1, &law, NULL), FW_OK);
-    assert_int_equal(fw_world_create(&r.w, RS, NULL), FW_OK);
-    assert_int_equal(fw_kernel_create(&r.k, &s, NULL), FW_OK);
-    r.wear.is_open = true;
-    assert_int_equal(fw_world_add_body(r.w, &b, NULL), FW_OK);
-    r.w->bodies[0].is_touched = true;
+    put_body(&r, &b);
     fw_world_open_ledger(r.w);
     return r;
-}
-
-static void run(rig *r, double t)
-{
-    fw_msg m = {""};
-    while (r->w->t < t)
-        if (fw_kernel_step(r->k, r->w, &r->wear, t, &m) != FW_OK) fail_msg("%s", m.text);
-}
-
-static void end(rig *r)
-{
-    fw_kernel_destroy(r->k);
-    fw_world_destroy(r->w);
-    fw_wear_free(&r->wear);
 }
 
 /* The same floe, in no contact, on a way of its own. */
@@ -155,7 +126,7 @@ static void energy_of_a_push(void **state)
     assert_true(l->dashpot > 0 && l->rolling == 0 && l->turned == 0 && l->friction == 0);
     assert_true(energy_out(r.w) < 1e-4 && fw_ledger_energy_given(l) == 0);
     CHECK_RELATIVE(-r.w->bodies[0].vx / V, exp(-2), 2e-3);
-    end(&r);
+    close_rig(&r);
 }
 
 /* Oblique: the flat's moment takes energy, always, and nothing is made. */
@@ -172,7 +143,7 @@ static void energy_of_a_slide(void **state)
         assert_true(flat ? r.w->ledger.rolling > 1 : r.w->ledger.rolling == 0);
         assert_true(energy_out(r.w) < 1e-3 && fw_ledger_energy_given(&r.w->ledger) == 0);
         assert_true(fw_ledger_energy_relative(&r.w->ledger) < 1e-12 && fw_ledger_momentum_relative(&r.w->ledger) < 1e-12);
-        end(&r);
+        close_rig(&r);
     }
 }
 
@@ -187,7 +158,7 @@ static void rests_on_its_flat(void **state)
     double deepest = r.w->ledger.max_overlap, b, F = fw_rim_force(r.w->bodies[0].rim, deepest, &b), N = 5125 * D * H * V * V;
     CHECK_RELATIVE(F, P * b * H, 1e-14);
     CHECK_NEAR(RS + D / 2 + r.w->bodies[0].x, deepest - (F - N) / (r.s.crush.unloading * F / deepest), 1e-7); /* it creeps there */
-    end(&r);
+    close_rig(&r);
 }
 
 /* A current of 3 mm/s presses a fresh rim with 0.06 N: it stands where the line of D0 carries that, nothing crushes, and it is found in a few steps. */
@@ -206,7 +177,7 @@ static void stands_on_fresh_rim(void **state)
     CHECK_NEAR(d, stands, 1e-3 * stands + 2e-15); /* rounding of its position */
     assert_true(r.w->ledger.crushed == 0 && r.w->ledger.force_evaluations < 1000);
     assert_true(fw_ledger_energy_given(&r.w->ledger) == 0);
-    end(&r);
+    close_rig(&r);
 }
 
 /* Back on its flat, slowly: nothing crushes, and it comes to a stop without a bounce. Turned by a quarter: fresh rim, which crushes. Turned back and
@@ -236,7 +207,7 @@ static void comes_back_on_its_flat(void **state)
     CHECK_RELATIVE(r.w->ledger.crushed, (F1 * more - F0 * deepest) * (2.0 / 3 - 0.5 / kappa), 5e-3);
     CHECK_RELATIVE(r.w->ledger.peak_force, F1, 1e-6);
     assert_true(restitution > 0.13 && energy_out(r.w) < 1e-3);
-    end(&r);
+    close_rig(&r);
 }
 
 /* A floe that spins while it is pushed leaves all of its way in its rim, however few steps the push takes: seen by a run that is stopped every
@@ -264,7 +235,7 @@ static void a_push_that_turns(void **state)
     for (int i = 0; i + 1 < N && deep[i + 1] > deep[i]; i++, n++)
         lack = fmax(lack, deep[i] - fw_rim_deepest(rim, place[i], &slope));
     assert_true(n > 100 && lack < 1e-3); /* imprints at its steps' ends alone: 2.7e-2 */
-    end(&fine), end(&r);
+    close_rig(&fine), close_rig(&r);
 }
 
 /* A floe that never touched the structure has no rim. */
@@ -276,7 +247,7 @@ static void no_rim_without_a_touch(void **state)
     assert_null(r.w->bodies[0].rim);
     run(&r, 1);
     assert_non_null(r.w->bodies[0].rim);
-    end(&r);
+    close_rig(&r);
 }
 
 int main(void)

@@ -2,10 +2,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "check.h"
-#include "kernel/kernel.h"
-
-#define PI 3.14159265358979323846
+#include "kernel/rig.h"
 
 static fw_setup setup(void)
 {
@@ -32,30 +29,6 @@ static fw_setup setup(void)
                       .max_evaluations = INFINITY};
 }
 
-typedef struct rig {
-    fw_world  *w;
-    fw_kernel *k;
-    fw_wear    wear;
-} rig;
-
-static rig open_rig(const fw_setup *s)
-{
-    rig                   r = {0};
-    const fw_abrasion_law law = {"bekker2011", 0.116, 1.121, true};
-    assert_int_equal(fw_wear_init(&r.wear, s->structure_radius, 360, 1, &law, NULL), FW_OK);
-    assert_int_equal(fw_world_create(&r.w, s->structure_radius, NULL), FW_OK);
-    assert_int_equal(fw_kernel_create(&r.k, s, NULL), FW_OK);
-    r.wear.is_open = true;
-    return r;
-}
-
-static void close_rig(rig *r)
-{
-    fw_kernel_destroy(r->k);
-    fw_world_destroy(r->w);
-    fw_wear_free(&r->wear);
-}
-
 static void put(rig *r, double x, double y, double D, double h, double vx, double vy, double spin, double drag)
 {
     double  m = 900 * PI * D * D / 4 * h;
@@ -70,15 +43,7 @@ static void put(rig *r, double x, double y, double D, double h, double vx, doubl
                  .inv_inertia = 8 / (m * D * D),
                  .drag = drag * D * h,
                  .name = r->w->n_bodies};
-    assert_int_equal(fw_world_add_body(r->w, &b, NULL), FW_OK);
-    r->w->bodies[r->w->n_bodies - 1].is_touched = true;
-}
-
-static void run(rig *r, double t)
-{
-    fw_msg m = {""};
-    while (r->w->t < t)
-        if (fw_kernel_step(r->k, r->w, &r->wear, t, &m) != FW_OK) fail_msg("%s", m.text);
+    put_body(r, &b);
 }
 
 /* A cluster of unequal spinning floes far from the structure, no drag: momentum and angular momentum stay, energy falls. */

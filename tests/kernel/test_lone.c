@@ -3,20 +3,12 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "check.h"
-#include "kernel/kernel.h"
-
-#define PI 3.14159265358979323846
+#include "kernel/rig.h"
 
 static const double RS = 3.7, D = 5, H = 0.5, K = 2e6;
 
-typedef struct rig {
-    fw_setup   s;
-    fw_world  *w;
-    fw_kernel *k;
-    fw_wear    wear;
-    double     omega;
-} rig;
+static double mass(void) { return 900 * PI * D * D / 4 * H; }
+static double omega(void) { return sqrt(K / mass()); }
 
 static fw_setup setup(double zeta, double mu, double slip_ratio)
 {
@@ -47,42 +39,21 @@ static fw_setup setup(double zeta, double mu, double slip_ratio)
 /* A floe at lateral offset y, 0.3 m before the touch if it goes straight on. */
 static rig start(fw_setup s, double y, double vx, double vy, double spin, double drag, bool rotates)
 {
-    rig                   r = {.s = s};
-    const fw_abrasion_law law = {"bekker2011", 0.116, 1.121, true};
-    double                m = 900 * PI * D * D / 4 * H, reach = RS + D / 2;
-    fw_body               b = {.x = -sqrt(reach * reach - y * y) - 0.3,
-                               .y = y,
-                               .vx = vx,
-                               .vy = vy,
-                               .spin = spin,
-                               .radius = D / 2,
-                               .thickness = H,
-                               .inv_mass = 1 / m,
-                               .inv_inertia = rotates ? 8 / (m * D * D) : 0,
-                               .drag = drag * D * H};
-    r.omega = sqrt(K / m);
-    assert_int_equal(fw_wear_init(&r.wear, RS, 360, 1, &law, NULL), FW_OK);
-    assert_int_equal(fw_world_create(&r.w, RS, NULL), FW_OK);
-    assert_int_equal(fw_kernel_create(&r.k, &s, NULL), FW_OK);
-    r.wear.is_open = true;
-    assert_int_equal(fw_world_add_body(r.w, &b, NULL), FW_OK);
-    r.w->bodies[0].is_touched = true;
+    rig     r = open_rig(&s);
+    double  m = mass(), reach = RS + D / 2;
+    fw_body b = {.x = -sqrt(reach * reach - y * y) - 0.3,
+                 .y = y,
+                 .vx = vx,
+                 .vy = vy,
+                 .spin = spin,
+                 .radius = D / 2,
+                 .thickness = H,
+                 .inv_mass = 1 / m,
+                 .inv_inertia = rotates ? 8 / (m * D * D) : 0,
+                 .drag = drag * D * H};
+    put_body(&r, &b);
     fw_world_open_ledger(r.w);
     return r;
-}
-
-static void run(rig *r, double t)
-{
-    fw_msg m = {""};
-    while (r->w->t < t)
-        if (fw_kernel_step(r->k, r->w, &r->wear, t, &m) != FW_OK) fail_msg("%s", m.text);
-}
-
-static void end(rig *r)
-{
-    fw_kernel_destroy(r->k);
-    fw_world_destroy(r->w);
-    fw_wear_free(&r->wear);
 }
 
 /* Head-on without drag: d'' + 2 zeta w d' + w^2 d = 0 from (0, v). */
@@ -99,19 +70,19 @@ static void head_on(void **state)
     for (size_t z = 0; z < 6; z++)
         for (int n = 1; n <= 64; n *= 8) { /* however often the caller wants a stop */
             rig    r = start(setup(ZETA[z], 0.1, 1), 0, 1.7, 0, 0, 0, true);
-            double touch = 0.3 / 1.7, until = 1.2 / r.omega; /* while the force lasts at any of these */
+            double touch = 0.3 / 1.7, until = 1.2 / omega(); /* while the force lasts at any of these */
             for (int i = 1; i <= n; i++) {
                 double t = until * i / n;
                 run(&r, touch + t);
                 const fw_body *b = &r.w->bodies[0];
-                CHECK_NEAR(b->x + RS + D / 2, depth(ZETA[z], r.omega, 1.7, t), 1e-13 * D);
+                CHECK_NEAR(b->x + RS + D / 2, depth(ZETA[z], omega(), 1.7, t), 1e-13 * D);
                 assert_true(b->y == 0 && b->vy == 0 && b->spin == 0);
             }
-            run(&r, touch + 10 / r.omega);
+            run(&r, touch + 10 / omega());
             if (ZETA[z] == 0) CHECK_RELATIVE(r.w->bodies[0].vx, -1.7, 1e-12);
             if (ZETA[z] == 1) CHECK_RELATIVE(r.w->bodies[0].vx, -1.7 * exp(-2), 1e-12);
-            if (ZETA[z] == 1) CHECK_RELATIVE(r.w->ledger.contact_time, 2 / r.omega, 1e-10);
-            end(&r);
+            if (ZETA[z] == 1) CHECK_RELATIVE(r.w->ledger.contact_time, 2 / omega(), 1e-10);
+            close_rig(&r);
         }
 }
 
@@ -124,7 +95,7 @@ static void sliding(void **state)
     const fw_body *b = &r.w->bodies[0];
     assert_true(r.w->ledger.normal_impulse > 0 && r.w->n_contacts == 0);
     CHECK_RELATIVE(b->spin + 3, 0.1 * r.w->ledger.normal_impulse * b->radius * b->inv_inertia, 1e-12);
-    end(&r);
+    close_rig(&r);
 }
 
 typedef struct result {
@@ -161,7 +132,7 @@ static void agrees_with_the_method(void **state)
             is[exact] = result_of(&r, 6);
             assert_true(fw_ledger_energy_relative(&r.w->ledger) < 1e-12);
             assert_true(fw_ledger_momentum_relative(&r.w->ledger) < 1e-12);
-            end(&r);
+            close_rig(&r);
         }
         print_message("case %zu: %.0f evaluations, the method %.0f; depth %.2e apart\n", i, is[1].evaluations,
                       is[0].evaluations, is[1].depth / is[0].depth - 1);
@@ -180,18 +151,18 @@ static void order(void **state)
     fw_setup s = setup(1, 0.1, 1);
     rig      r = start(s, 2.5, 2, 0, 0, 5125, true);
     s.tolerance = 1e-9, s.wear_tolerance = 1e-10;
-    end(&r);
+    close_rig(&r);
     r = start(s, 2.5, 2, 0, 0, 5125, true);
     result ref = result_of(&r, 2);
-    end(&r);
+    close_rig(&r);
     for (int i = 0; i < 4; i++) {
         s.tolerance = s.wear_tolerance = 1e9;
-        s.max_step = 2 * 0.4 / r.omega / (1 << i); /* a way */
+        s.max_step = 2 * 0.4 / omega() / (1 << i); /* a way */
         r = start(s, 2.5, 2, 0, 0, 5125, true);
         result is = result_of(&r, 2);
         error[i] = 0;
         for (int q = 0; q < 5; q++) error[i] = fmax(error[i], fabs(is.state[q] - ref.state[q]));
-        end(&r);
+        close_rig(&r);
     }
     print_message("errors at h, h/2, h/4, h/8: %.1e %.1e %.1e %.1e\n", error[0], error[1], error[2], error[3]);
     assert_true(error[3] < 1e-5 && log2(error[2] / error[3]) > 2.5);
@@ -213,7 +184,7 @@ static void energy(void **state)
             print_message("offset %g m, tolerance %g: energy off by %.1e\n", Y[i], TOLERANCE[q], off);
             assert_true(off < 10 * TOLERANCE[q]);
             assert_true(r.w->ledger.drag_work != 0 && r.w->ledger.dashpot > 0 && r.w->ledger.friction > 0);
-            end(&r);
+            close_rig(&r);
         }
 }
 
@@ -226,7 +197,7 @@ static void mirror_images(void **state)
         run(&a, 5), run(&b, 5);
         const fw_body *p = &a.w->bodies[0], *q = &b.w->bodies[0];
         assert_true(p->x == q->x && p->y == -q->y && p->vx == q->vx && p->vy == -q->vy && p->spin == -q->spin);
-        end(&a), end(&b);
+        close_rig(&a), close_rig(&b);
     }
 }
 
