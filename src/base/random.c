@@ -61,6 +61,12 @@ uint32_t fw_random_u32(fw_random *r)
     return r->block[r->n_used++];
 }
 
+void fw_random_block(const fw_random *r, uint64_t n, uint32_t block[4])
+{
+    const uint32_t counter[4] = {low(n), high(n), r->counter[2], r->counter[3]};
+    fw_philox4x32_10(counter, r->key, block);
+}
+
 /* Of 64 bits 52: with the half added the numerator has 53, so no value rounds to 1. */
 static double to_uniform(uint64_t bits) { return ((double)(int64_t)(bits >> 12) + 0.5) * 0x1p-52; }
 

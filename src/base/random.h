@@ -16,6 +16,7 @@ typedef enum fw_purpose {
     FW_STREAM_SUBSETS    = 5, /* accuracy study: which records a sub-set takes */
     FW_STREAM_WIND       = 6, /* id = realisation: speed, angle */
     FW_STREAM_TIDE       = 7, /* id = realisation: phase */
+    FW_STREAM_DESIGN     = 8, /* id = randomisation or replicate, part = use << 32 | dimension: 0 scramble, 1 strata, 2 jitter */
     FW_STREAM_TEST       = 99
 } fw_purpose;
 
@@ -29,6 +30,9 @@ void fw_philox4x32_10(const uint32_t counter[4], const uint32_t key[2], uint32_t
 void     fw_random_stream(fw_random *r, uint64_t seed, fw_purpose purpose, uint64_t id, uint64_t part);
 uint32_t fw_random_u32(fw_random *r);
 double   fw_random_uniform(fw_random *r); /* open (0, 1), 53 bits, two words each */
+
+/* Words 4 n .. 4 n + 3 of the stream that r was set to, wherever r has got to: a random function of n. */
+void fw_random_block(const fw_random *r, uint64_t n, uint32_t block[4]);
 
 /* A stream read as uniforms alone, eight blocks at a time: the numbers of fw_random_uniform, in its order, in two
  * thirds of the time, with AVX-512 in a fifth. A copy goes on independently. */

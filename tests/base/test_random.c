@@ -53,6 +53,24 @@ static void counter_carries(void **state)
     }
 }
 
+/* A block by its number is what reading up to there gives. */
+static void blocks_by_number(void **state)
+{
+    (void)state;
+    fw_random r, start;
+    uint32_t  block[4];
+    fw_random_stream(&r, 1, FW_STREAM_TEST, 2, 3);
+    start = r;
+    for (uint64_t n = 0; n < 20; n++) {
+        fw_random_block(n % 2 ? &r : &start, n, block);
+        for (int i = 0; i < 4; i++) assert_int_equal(fw_random_u32(&r), block[i]);
+    }
+    r = start;
+    r.counter[0] = 5, r.counter[1] = 7;
+    fw_random_block(&start, (UINT64_C(7) << 32) + 5, block);
+    for (int i = 0; i < 4; i++) assert_int_equal(fw_random_u32(&r), block[i]);
+}
+
 /* Read eight blocks at a time a stream is the same stream, also where the counter carries and in a copy. */
 static void uniforms_are_those_of_the_stream(void **state)
 {
@@ -178,6 +196,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(philox_known_answers),
         cmocka_unit_test(counter_carries),
+        cmocka_unit_test(blocks_by_number),
         cmocka_unit_test(uniforms_are_those_of_the_stream),
         cmocka_unit_test(gsl_gives_the_same_words),
         cmocka_unit_test(streams_are_independent),
