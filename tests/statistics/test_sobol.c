@@ -253,15 +253,16 @@ static void each_point_is_uniform(void **state)
     const uint64_t indices[] = {0, 1, 37, UINT64_C(1) << 40};
     for (unsigned kind = 1; kind < 3; kind++)
         for (int j = 0; j < 4; j++) {
-            unsigned high[2][CELLS] = {{0}}, low[2][CELLS] = {{0}}, both[CELLS] = {0};
+            unsigned high[2][CELLS] = {{0}}, low[2][CELLS] = {{0}}, both[CELLS] = {0}, blocks[CELLS] = {0};
             for (uint64_t r = 0; r < REPEATS; r++) {
                 double u[2];
                 fw_sobol_point(indices[j], 2, KINDS[kind], 7, r, u);
                 for (int d = 0; d < 2; d++) high[d][bits_of(u[d]) >> 46]++, low[d][bits_of(u[d]) & 63]++;
                 both[bits_of(u[0]) >> 49 << 3 | bits_of(u[1]) >> 49]++; /* dimensions have coins of their own */
+                blocks[bits_of(u[0]) >> 49 << 3 | (bits_of(u[0]) >> 42 & 7)]++; /* and so have bits 0 to 2 and 7 to 9 */
             }
             for (int d = 0; d < 2; d++) assert_equal_chances(CELLS, high[d], REPEATS), assert_equal_chances(CELLS, low[d], REPEATS);
-            assert_equal_chances(CELLS, both, REPEATS);
+            assert_equal_chances(CELLS, both, REPEATS), assert_equal_chances(CELLS, blocks, REPEATS);
         }
 }
 
