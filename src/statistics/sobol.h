@@ -1,6 +1,6 @@
 /* Sobol points, plain or randomised: each straight from its index.
  *
- * The first 2^m points (and each later 2^m of them, m 2^m to (m + 1) 2^m) are spread evenly over boxes of the unit cube: in every dimension each of
+ * The first 2^m points (and each later block of them, k 2^m to (k + 1) 2^m) are spread evenly over boxes of the unit cube: in every dimension each of
  * the 2^m intervals of length 2^-m has exactly one, in pairs of dimensions each box of area 2^(t - m) has 2^t, with t small for these directions. The
  * mean of a smooth function over them errs by nearly 1 / n, over scrambled ones by nearly n^(-3/2). The origin is point 0: without it none of this holds.
  * n other than a power of 2 is allowed and loses part of the gain.
