@@ -22,6 +22,8 @@ typedef struct fw_precision {
     uint64_t    max_realisations;
     uint64_t
         max_failed; /* more failures than this end the campaign with exit 3; default 1 % of max_realisations, at least 1 */
+    size_t  n_points; /* 0: all of the campaign's */
+    size_t *points;   /* (n_points) that it is asked of, from 1; owned */
     double budget_s; /* wall-clock budget of one call, 0: none (from --time-budget, not part of the hash) */
 } fw_precision;
 
@@ -30,6 +32,25 @@ typedef struct fw_service {
     double life_years, ice_hours_per_year, year_to_year_cv, persistence;
     double allowance; /* [mm], 0: none */
 } fw_service;
+
+/* How scenarios are drawn. The designs but plain come in randomisations that are independent of each other: realisation id is point
+ * id / n of randomisation id % n. */
+typedef enum fw_design {
+    FW_DESIGN_PLAIN,      /* independent */
+    FW_DESIGN_STRATIFIED, /* strata of speed, concentration and mix (cells of a joint table) taken in turns, each by its allocation */
+    FW_DESIGN_LATIN,      /* Latin hypercubes of FW_LATIN_SIZE points */
+    FW_DESIGN_SOBOL       /* scrambled Sobol points */
+} fw_design;
+enum { FW_LATIN_SIZE = 16, FW_MAX_STRATA = 4096 };
+
+typedef struct fw_sampling {
+    fw_design design;
+    bool      is_auto;          /* the file leaves the choice to a pilot */
+    bool      is_shifted;       /* Sobol: by a digital shift instead of Owen's scramble */
+    uint32_t  n_randomisations; /* at least 16 */
+    size_t    n_allocation;     /* 0: proportional; else the number of strata (campaign/strata.h) */
+    double   *allocation;       /* (n_allocation) share of the realisations, more than 0, sums to 1; owned */
+} fw_sampling;
 
 /* What acts on a campaign's answers after the run; not part of the hash. */
 typedef struct fw_after {
@@ -48,6 +69,7 @@ typedef struct fw_campaign {
     fw_model  model;
     fw_site   site;
     fw_points points;
+    fw_sampling  sampling;
     fw_precision precision;     /* not part of the hash: a run may be continued to a finer precision */
     fw_service   service;       /* not part of the hash */
     fw_after     after;
@@ -59,9 +81,18 @@ typedef struct fw_campaign {
 
 void fw_campaign_free(fw_campaign *c);
 
-/* id -> scenario, a pure function of (seed, id). Plain sampling: quantile functions of independent uniforms from the stream
- * (seed, FW_STREAM_SCENARIO, id); the joint table's cell from its margin; wind and tide, while these effects are on, from streams of their own. */
+/* id -> scenario, a pure function of (campaign, id): the design's point in the unit cube, then quantile functions. */
 void fw_campaign_scenario(const fw_campaign *c, uint64_t id, fw_scenario *out);
+/* The same by plain sampling, whatever the design: what studies of numerics and effects run. */
+void fw_campaign_plain_scenario(const fw_campaign *c, uint64_t id, fw_scenario *out);
+
+/* The law of scenarios itself, as n points whose weights sum to 1: what an average over scenarios is taken with where none of them is
+ * simulated. Exact for a joint table without wind and tide and for constants, else n Sobol points. */
+typedef struct fw_scenario_law {
+    uint64_t n;
+    void (*point)(const fw_campaign *c, uint64_t i, fw_scenario *out);
+} fw_scenario_law;
+fw_scenario_law fw_campaign_law(const fw_campaign *c);
 
 /* Where finished records go (rank 0 only), in arrival order; the sink copies what it keeps. */
 typedef struct fw_sink {

@@ -14,8 +14,8 @@
  * floes too; 6: wear of stiff viscous slip, overlaps at their peak, dashpots of long steps; 7: slip of
  * symmetric wedges, a slowest current; 8: mean_diameter_wanted; 9: what a
  * cluster has dissipated is shared out where it falls apart; 10: steps stay cut where a touch that is none was looked for; 11: an energy
- * balance is measured at least against what water, air and floes bring; mean thickness that wore; further effects. */
-enum { FW_RECORD_GENERATION = 11 };
+ * balance is measured at least against what water, air and floes bring; mean thickness that wore; further effects; 12: weight, randomisation. */
+enum { FW_RECORD_GENERATION = 12 };
 
 /* Scalar columns: C type tag, name (also the HDF5 dataset and journal order), unit (UDUNITS), long name.
  * One list, so that packing, HDF5, documentation and comparison cannot drift apart. */
@@ -27,6 +27,8 @@ enum { FW_RECORD_GENERATION = 11 };
     X(wind_speed, "m s-1", "wind speed; 0 without wind")                                                               \
     X(wind_angle, "rad", "where the wind blows to, from the current's direction, anticlockwise seen from above")       \
     X(tide_phase, "rad", "phase of the tide in the window's middle; 0 without a tide")                                 \
+    X(weight, "1", "weight in every average: how often the site has such a scenario over how often the design draws it") \
+    X(randomisation, "1", "of the sampling design that the realisation belongs to; -1: it was drawn on its own")        \
     X(concentration_achieved, "1", "ice concentration of the field that was packed")                                   \
     X(mean_diameter, "m", "mean floe diameter of the field that was packed")                                           \
     X(mean_diameter_wanted, "m", "mean floe diameter of the law of sizes")                                             \

@@ -205,6 +205,8 @@ typedef struct fw_scenario {
     double   wind_speed; /* [m/s]; 0 without wind */
     double   wind_angle; /* where the wind blows to, from +x, anticlockwise seen from above [rad] */
     double   tide_phase; /* of the window's middle [rad]; 0 without tide */
+    double   weight;        /* in averages; 1 where the design draws scenarios as often as the site has them */
+    int32_t  randomisation; /* of the design, from 0; < 0: drawn on its own */
 } fw_scenario;
 
 /* One cell of a joint site table: a value of (speed, concentration, thickness) with its share of time and the law of

@@ -10,6 +10,8 @@ void fw_campaign_free(fw_campaign *c)
     free(c->settings);
     free(c->points.bearing);
     free(c->not_applied);
+    free(c->sampling.allocation);
+    free(c->precision.points);
     for (size_t i = 0; i < c->n_sets; i++) free(c->sets[i]);
     free(c->sets);
     fw_site_free(&c->site);

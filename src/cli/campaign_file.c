@@ -11,6 +11,7 @@
 #include "cli/drift_file.h"
 #include "cli/effects_file.h"
 #include "cli/model_file.h"
+#include "cli/sampling_file.h"
 #include "cli/settings.h"
 #include "cli/site_table.h"
 #include "field/sizes.h"
@@ -197,33 +198,7 @@ static fw_status read_site(const fw_reader *r, const fw_node *ice, const fw_node
     return FW_OK;
 }
 
-/* ---- precision and service -------------------------------------------------------------------------------------- */
-
-static fw_status read_precision(const fw_reader *r, fw_values *v, fw_precision *out)
-{
-    const fw_node *map = fw_yaml_get(r->root, "precision");
-    uint64_t       given = 0;
-
-    FW_TRY(fw_read_section(r, &fw_table_precision, "precision", map, v, &given));
-    out->half_width = v->half_width;
-    out->confidence = v->confidence;
-    out->max_realisations = v->max_realisations;
-    out->max_failed = v->max_failed;
-    if (!fw_read_is_given(&fw_table_precision, given, "max_failed")) {
-        out->max_failed = v->max_realisations / 100 > 1 ? v->max_realisations / 100 : 1;
-    }
-    out->quantity = FW_QUANTITY_MEAN;
-    if (strcmp(v->quantity, "mean") == 0) return FW_OK;
-    out->quantity = FW_QUANTITY_PERCENTILE;
-    bool is_p = v->quantity[0] == 'P' || v->quantity[0] == 'p';
-    if (is_p && fw_units_number(v->quantity + 1, &out->percentile, NULL) == FW_OK && out->percentile > 0 &&
-        out->percentile < 100) {
-        return FW_OK;
-    }
-    return fw_yaml_fail(fw_yaml_get(map, "quantity"), r->m,
-                        "precision.quantity = \"%.40s\": wanted mean, or a percentile between P0 and P100 like P90",
-                        v->quantity);
-}
+/* ---- service -------------------------------------------------------------------------------------- */
 
 static fw_status note_not_applied(fw_campaign *c, const char *key, double value, fw_msg *m)
 {
@@ -317,7 +292,8 @@ static fw_status read_campaign(const fw_reader *r, const char *file, int64_t see
     c->model.effects_tolerance = v.effects_tolerance;
     FW_TRY(check_sizes(r, floe_diameter ? floe_diameter : ice, &c->model));
     FW_TRY(settle_effects(r, c));
-    FW_TRY(read_precision(r, &v, &c->precision));
+    FW_TRY(fw_file_read_sampling(r, &v, &c->model, &c->site, &c->sampling));
+    FW_TRY(fw_file_read_precision(r, &v, c->points.n, &c->precision));
     FW_TRY(read_service(r, &v, c));
     FW_TRY(fw_file_read_after(r, &c->model, &c->after));
     fw_status status = fw_model_check(&c->model, r->m);

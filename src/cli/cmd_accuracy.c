@@ -65,7 +65,7 @@ static fw_status measure(const accuracy_arguments *a, const fw_campaign *c, cons
 {
     fw_study_watch      w = fw_study_watch_start(a->of.budget_s, a->is_quiet);
     fw_tick             tick = fw_study_watch_tick(&w);
-    fw_accuracy_options o = {.scenario = fw_campaign_scenario,
+    fw_accuracy_options o = {.scenario = fw_campaign_plain_scenario,
                              .cpu_budget_s = a->is_quick ? QUICK_S : USUAL_S,
                              .tick = &tick,
                              .say = fw_study_watch_say,

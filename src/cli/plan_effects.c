@@ -51,7 +51,7 @@ static fw_status measure(const fw_plan_effects_wanted *w, const fw_campaign *c, 
     fw_effects_switch  switches[FW_EFFECTS_MOST];
     fw_study_watch     watch = fw_study_watch_start(0, w->is_quiet);
     fw_tick            tick = fw_study_watch_tick(&watch);
-    fw_effects_options o = {.scenario = fw_campaign_scenario,
+    fw_effects_options o = {.scenario = fw_campaign_plain_scenario,
                             .switches = switches,
                             .cpu_budget_s = w->cpu_budget_s > 0 ? w->cpu_budget_s : USUAL_S,
                             .n_windows = w->n_windows,

@@ -193,6 +193,18 @@ static void put_crushing_limit(text *t, const fw_model *m)
         m->crushing_limit.exponent);
 }
 
+/* Plain sampling is what campaigns had before there was another. */
+static void put_sampling(text *t, const fw_sampling *a)
+{
+    static const char *const names[] = {"plain", "stratified", "latin_hypercube", "sobol"};
+
+    if (a->design == FW_DESIGN_PLAIN) return;
+    put(t, "sampling.design = %s\nsampling.randomisations = %" PRIu32 "\n", names[a->design], a->n_randomisations);
+    if (a->design == FW_DESIGN_SOBOL) put(t, "sampling.scramble = %s\n", a->is_shifted ? "digital_shift" : "owen");
+    if (a->n_allocation)
+        put(t, "sampling.allocation = %zu of hash %016" PRIx64 "\n", a->n_allocation, fw_fnv1a64(a->allocation, a->n_allocation * sizeof *a->allocation));
+}
+
 /* Only what is given: a campaign without this section is the campaign that it was before there was one. */
 static void put_numerics(text *t, const fw_values *v)
 {
@@ -232,6 +244,7 @@ fw_status fw_settings_make(fw_campaign *c, const fw_values *v, fw_msg *m)
     put_keys(&t, &fw_table_field, v);
     put_keys(&t, &fw_table_ring, v);
     put_numerics(&t, v);
+    put_sampling(&t, &c->sampling);
     if (t.status != FW_OK) {
         free(t.bytes);
         return t.status;

@@ -116,6 +116,7 @@ static const fw_key CAMPAIGN[] = {
     SHAPED("ring", "", "map", "resolution round the structure"),
     NUMBER("accuracy", accuracy, "1", "1 %", FROM_TO(1e-4, 0.1), "wanted discretisation error of a window's depth"),
     SHAPED("numerics", "", "map", "how a window is computed; left out: accuracy chooses"),
+    SHAPED("sampling", "", "map", "how scenarios are drawn; left out: a pilot chooses"),
     SHAPED("precision", "", "map", "when there are enough realisations"),
     SHAPED("service", "", "map", "service life; left out: none is worked out"),
     COUNT("seed", seed, "1", FROM_TO(0, 1e18), "of every random number"),
@@ -232,11 +233,21 @@ static const fw_key NUMERICS[] = {
 };
 SECTION(fw_table_numerics, "numerics", "how a window is computed, instead of what accuracy and its study choose", NUMERICS);
 
+static const fw_key SAMPLING[] = {
+    {"design", FW_KEY_CHOICE, AT(design), NULL, "auto", ANY, "auto|plain|stratified|latin_hypercube|sobol",
+     "how scenarios are drawn; auto: as the pilot of floewear plan chose, else plain"},
+    COUNT("randomisations", n_randomisations, "32", FROM_TO(16, 1024), "independent ones of a design that is not plain; intervals are made from their scatter"),
+    {"scramble", FW_KEY_CHOICE, AT(scramble), NULL, "owen", ANY, "owen|digital_shift", "of Sobol points"},
+    SHAPED("allocation", "", "list of shares", "stratified: share of the realisations for every stratum; left out: as often as the site has it"),
+};
+SECTION(fw_table_sampling, "sampling", "how scenarios are drawn", SAMPLING);
+
 static const fw_key PRECISION[] = {
     {"quantity", FW_KEY_TEXT, AT(quantity), NULL, "P90", ANY, NULL,
      "what has to be precise: mean, or a percentile like P90"},
     NUMBER("half_width", half_width, "1", "0 %", FROM_TO(0, 10),
            "relative half-width of its interval at the worst point; 0: run max_realisations"),
+    SHAPED("points", "", "list of measuring points", "the points that it is asked of; all of them when left out"),
     NUMBER("confidence", confidence, "1", "95 %", FROM_TO(0.5, 0.9999), "of the interval"),
     COUNT("max_realisations", max_realisations, "1000", FROM_TO(1, 1e12), "the run ends here at the latest"),
     COUNT("max_failed", max_failed, "", FROM_TO(1, 1e12),
@@ -341,6 +352,7 @@ const fw_table_listed fw_tables[] = {
     {"campaign", &fw_table_field},
     {"both", &fw_table_ring},
     {"campaign", &fw_table_numerics},
+    {"campaign", &fw_table_sampling},
     {"campaign", &fw_table_precision},
     {"campaign", &fw_table_service},
     {"scene", &fw_table_scene},

@@ -37,6 +37,8 @@ typedef struct fw_values {
     double   order, tolerance, wear_tolerance, first_step, growth; /* < 0: auto */
     char     quantity[FW_KEY_TEXT_SIZE];
     double   half_width, confidence;
+    int      design, scramble;
+    uint64_t n_randomisations;
     uint64_t max_realisations, max_failed;
     double   life, ice_hours_per_year, year_to_year_cv, persistence, allowance;
     double   speed, temperature, duration; /* scenes */
@@ -64,7 +66,7 @@ extern const fw_section fw_table_contact, fw_table_water, fw_table_ring, fw_tabl
     fw_table_archard, fw_table_crushing_limit;
 /* Campaign files. */
 extern const fw_section fw_table_campaign, fw_table_structure, fw_table_points, fw_table_ice, fw_table_mix,
-    fw_table_floe_diameter, fw_table_current, fw_table_tide, fw_table_wind, fw_table_exposure, fw_table_field, fw_table_numerics, fw_table_precision,
+    fw_table_floe_diameter, fw_table_current, fw_table_tide, fw_table_wind, fw_table_exposure, fw_table_field, fw_table_numerics, fw_table_sampling, fw_table_precision,
     fw_table_service;
 /* Scene files. */
 extern const fw_section fw_table_scene, fw_table_scene_structure, fw_table_scene_ice, fw_table_scene_current,

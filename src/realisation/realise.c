@@ -17,6 +17,7 @@ static void describe(fw_record *rec, const fw_window_run *r, const fw_scenario *
     rec->mix = sc->mix;
     rec->cell = sc->cell;
     rec->wind_speed = sc->wind_speed, rec->wind_angle = sc->wind_angle, rec->tide_phase = sc->tide_phase;
+    rec->weight = sc->weight, rec->randomisation = sc->randomisation;
     rec->window = r->model->window;
     rec->warm_up = warm_up;
     if (!r->ice.field) return;

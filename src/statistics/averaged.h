@@ -1,49 +1,52 @@
 /* Interval of a percentile of an averaged CDF, F(x) = mean over i of F_i(x), where each realisation i gives a whole
  * distribution F_i instead of one number (temperature and direction are integrated, not sampled).
  *
- * Such a CDF has no order statistics, but at any x the F_i(x) are independent numbers in [0, 1] whose mean is F(x).
- * Their variance s^2 is at most F (1 - F), the variance of plain sampling; the quotient says how much the
- * integration is worth:
- *     n_effective = n F (1 - F) / s^2   (Kish's effective sample size; n when every F_i is a step, a plain sample)
- * The binomial interval of a sample of that size, continued to real n by the incomplete beta function, then gives
- * levels below and above p, and the averaged CDF read backwards at these levels gives the ends (Woodruff 1952; Korn
- * and Graubard 1998 for the effective size in a binomial interval). An end that does not exist for n_effective is not
- * offered, as with order statistics, into which this interval passes when the F_i become steps.
+ * Such a CDF has no order statistics, but at any x the F_i(x) are numbers in [0, 1] whose weighted mean is F(x), and the variance of that mean is
+ * known from their scatter (spread.h), be the realisations independent, weighted, calibrated or in randomisations of a design. Beside F (1 - F),
+ * the variance of one plain draw, it says how much the averaging is worth:
+ *     n_effective = F (1 - F) / variance   (Kish's effective sample size; n when every F_i is a step of a plain sample)
+ * A binomial interval for a sample of that size, continued to real n by the incomplete beta function, then gives levels below and above p, and the
+ * averaged CDF read backwards at these levels gives the ends (Woodruff 1952; Korn and Graubard 1998 for the effective size in a binomial interval).
+ * Levels are those of the mid-P interval: an average takes every value between its steps, and the exact binomial's ends, which are for steps alone,
+ * would cover up to 99 % for 95. An end that does not exist for n_effective is not offered.
  *
  * Why not sectioning (B batches, t interval of the batch quantiles): measured on lognormal, exponential and Pareto
  * laws, it keeps 93-97 % only when each of at least six batches holds three values beyond the percentile, n >= 180
- * for P90 and 1800 for P99; this one covers 94.5 % or more from n = 20 on (conservative, up to 99 %, where few
- * realisations lie beyond the percentile; tests/statistics/test_averaged.c) and says itself when an end is missing. */
+ * for P90 and 1800 for P99. Coverage of this one, and where it is refused: tests/statistics/test_averaged.c. */
 #ifndef FW_STATISTICS_AVERAGED_H
 #define FW_STATISTICS_AVERAGED_H
 
 #include <stddef.h>
 
-#include "statistics/mixture.h"
 #include "statistics/order.h"
+#include "statistics/spread.h"
 
 /* Below this the variance of the F_i is too poorly known: no interval is offered. */
-enum { FW_AVERAGED_MIN_N = 20 };
+enum { FW_AVERAGED_MIN_N = 40 };
 
-/* n_effective from sum and sum of squares of the n numbers F_i(x); the digits lost by estimating s^2 are taken off by
- * (normal quantile / t quantile)^2 with n - 1 degrees of freedom. At most 1e8; n itself when F(x) is 0 or 1; 0 when
- * n < 2. */
-double fw_averaged_effective_size(size_t n, double sum, double sum_of_squares, double confidence);
+/* The averaged CDF at one depth and how well it is known there. */
+typedef struct fw_averaged_at {
+    double    cdf;
+    fw_spread spread;
+} fw_averaged_at;
+
+/* n_effective, less what is lost by estimating the variance with few degrees of freedom: (normal quantile / t quantile)^2. At most 1e8. */
+double fw_averaged_effective_size(const fw_averaged_at *at, double confidence);
 
 /* Levels of the averaged CDF at which the ends of the p-quantile's interval lie; NAN where there is none. */
 void fw_averaged_levels(double n_effective, double p, double confidence, double *low, double *high);
 
-/* One realisation's own CDF at a depth, summed over the n realisations: *sum = sum F_i, *squares = sum F_i^2. */
-typedef struct fw_averaged_parts {
-    void (*sums)(void *self, double depth, double *sum, double *squares);
-    void *self;
-} fw_averaged_parts;
+typedef struct fw_averaged {
+    void (*at)(void *self, double depth, fw_averaged_at *out);
+    double (*quantile)(void *self, double level); /* of the averaged CDF; level in (0, 1] */
+    void  *self;
+    size_t n;            /* realisations */
+    double failed_share; /* of the weight, by those that failed */
+} fw_averaged;
 
-/* Interval of the p-quantile of x, the average of n realisations' CDFs. The effective size is the smallest of those at
- * the percentile and at both ends: where a gap between two directions makes all F_i equal by chance, s^2 = 0 there says
- * nothing. n_failed realisations count as 0 for the lower end and as +infinity for the upper one, as in order.h.
- * coverage is the nominal one; NAN (no interval) when n + n_failed < FW_AVERAGED_MIN_N or n = 0. */
-fw_interval fw_averaged_interval(const fw_mixture *x, size_t n, size_t n_failed, const fw_averaged_parts *parts,
-                                 double p, double confidence);
+/* Interval of the p-quantile. The effective size is the smallest of those at the percentile and at both ends: where a gap between two directions
+ * makes all F_i equal by chance, a variance of 0 there says nothing. Failed realisations count as 0 for the lower end and as +infinity for the
+ * upper one, as in order.h. coverage is the nominal one; NAN (no interval) when n < FW_AVERAGED_MIN_N. */
+fw_interval fw_averaged_interval(const fw_averaged *x, double p, double confidence);
 
 #endif

@@ -43,10 +43,10 @@ static moments take_moments(size_t n, const double *values, size_t n_zeros)
     return m;
 }
 
-fw_interval fw_mean_interval(size_t n, const double *values, size_t n_failed, double confidence)
+fw_interval fw_mean_interval(size_t n, const double *values, size_t n_failed, size_t least, double confidence)
 {
     fw_interval out = {NAN, NAN, NAN};
-    if (n + n_failed < FW_MEAN_MIN_N || n == 0 || !(confidence > 0 && confidence < 1)) return out;
+    if (n + n_failed < least || n == 0 || !(confidence > 0 && confidence < 1)) return out;
     moments m = take_moments(n, values, n_failed);
     double  t = gsl_cdf_tdist_Pinv(0.5 + 0.5 * confidence, m.n - 1);
     out.low = m.mean - m.sd * hall_inverse(t, m.skewness, m.n);

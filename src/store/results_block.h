@@ -14,8 +14,8 @@
 #include "store/h5_data.h"
 
 #define FW_RESULTS_FILETYPE "floewear results"
-enum { FW_RESULTS_VERSION = 5 }; /* 2: awake_floes, reach; 3: watch-dogs, tries; 4: mean_diameter_wanted;
-                                * 5: wind, tide_phase, wear_thickness */
+enum { FW_RESULTS_VERSION = 6 }; /* 2: awake_floes, reach; 3: watch-dogs, tries; 4: mean_diameter_wanted;
+                                * 5: wind, tide_phase, wear_thickness; 6: weight, randomisation */
 enum { FW_RESULTS_CAUSE = sizeof((fw_record *)0)->cause };
 
 typedef struct fw_results_datasets {

@@ -87,7 +87,7 @@ static fw_status collect(fw_depth *d, const fw_campaign *c, const fw_answer_sour
         if (s == FW_OK) s = fw_depth_add(d, &r, m);
     }
     fw_record_free(&r);
-    return s;
+    return s == FW_OK && d->n > 0 ? fw_depth_settle(d, source->law.point ? &source->law : NULL, m) : s;
 }
 
 static double choose_design_percentile(const fw_campaign *c, const question *q)
@@ -115,7 +115,7 @@ static void fill_percentiles(const question *q, size_t i, const fw_window *w, fw
                                       .low_mm = v.low,
                                       .high_mm = v.high,
                                       .coverage = v.coverage,
-                                      .method = w->is_sample ? "order statistics" : "averaged CDF"};
+                                      .method = fw_window_method(w)};
     }
 }
 
@@ -123,15 +123,15 @@ static void fill_point(const question *q, size_t i, const fw_window *w, fw_point
 {
     const fw_depth *d = w->depth;
     fw_interval     mean = fw_window_mean_interval(w, q->confidence);
-    double          load = w->load * (double)d->n; /* sum, like impact and high: shares are ratios of means */
+    double          load = fw_depth_ring_mean(d, i, FW_DEPTH_RING_LOAD); /* shares are ratios of means */
     *row = (fw_point_row){.point = q->numbers[i],
                           .bearing_deg = q->bearings[i],
                           .mean_mm = w->moment[1],
                           .mean_low_mm = mean.low,
                           .mean_high_mm = mean.high,
-                          .path_km = d->path[i] / (double)d->n,
-                          .impact_share = load > 0 ? d->impact[i] / load : NAN,
-                          .high_share = load > 0 ? d->high[i] / load : NAN};
+                          .path_km = fw_depth_ring_mean(d, i, FW_DEPTH_RING_PATH),
+                          .impact_share = load > 0 ? fw_depth_ring_mean(d, i, FW_DEPTH_RING_IMPACT) / load : NAN,
+                          .high_share = load > 0 ? fw_depth_ring_mean(d, i, FW_DEPTH_RING_HIGH) / load : NAN};
 }
 
 static fw_status fill_life(fw_answer *a, const fw_campaign *c, const question *q, size_t i, const fw_window *w,
@@ -215,11 +215,27 @@ static const fw_percentile_row *find_governing(const fw_answer *a, size_t n_perc
     return worst;
 }
 
+/* Every realisation's thickness with its share of the governing point's mean depth. */
+static fw_status water_level(fw_answer *a, const fw_campaign *c, const fw_window *w, fw_msg *m)
+{
+    const fw_depth *d = w->depth;
+    double         *thickness = NULL, *shares = NULL;
+    fw_status       s = fw_alloc(&thickness, d->n, sizeof *thickness, "thicknesses of records", m);
+    if (s == FW_OK) s = fw_alloc(&shares, d->n, sizeof *shares, "shares of depth", m);
+    for (size_t i = 0; i < d->n && s == FW_OK; i++) thickness[i] = d->row[i].thickness, shares[i] = d->units.weight[i] * w->means[i];
+    if (s == FW_OK)
+        s = fw_water_level_make(&a->water_level, &c->after.water_level, c->model.ice_density / c->model.water_density, d->n, thickness, shares, m);
+    free(thickness);
+    free(shares);
+    return s;
+}
+
 /* One point after the other, so that only one point's law is in memory; the governing one is made again for the
  * ledger. */
 static fw_status answer(fw_answer *a, const fw_campaign *c, const question *q, const fw_depth *d, fw_msg *m)
 {
     fw_window w;
+    FW_CHECK(d->n > 0, m, FW_E_FAILURES, "no realisation succeeded (%zu failed): there is nothing to answer from", d->n_failed);
     FW_TRY(allocate(a, c, q, m));
     for (size_t i = 0; i < q->n_points; i++) {
         FW_TRY(fw_window_make(&w, d, i, m));
@@ -234,9 +250,7 @@ static fw_status answer(fw_answer *a, const fw_campaign *c, const question *q, c
     a->governing_point = governing->point;
     FW_TRY(fw_window_make(&w, d, (size_t)(governing - a->percentiles) / q->n_percentiles, m));
     fw_status s = fw_ledger_rows(a, c, &w, governing, m);
-    if (s == FW_OK && c->after.has_water_level)
-        s = fw_water_level_make(&a->water_level, &c->after.water_level, c->model.ice_density / c->model.water_density, d->n, d->thickness, w.means,
-                                m);
+    if (s == FW_OK && c->after.has_water_level) s = water_level(a, c, &w, m);
     fw_window_free(&w);
     return s;
 }

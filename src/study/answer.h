@@ -8,11 +8,13 @@
 #include "study/measured.h"
 #include "study/water_level.h"
 
-/* Reads record id (0 .. n-1) into r, which is initialised with the campaign's sizes. */
+/* Reads record id (0 .. n-1) into r, which is initialised with the campaign's sizes. law: what the site's scenarios are drawn from, for control
+ * variates; zeros: there are none. */
 typedef struct fw_answer_source {
     uint64_t n;
     fw_status (*read)(void *self, uint64_t id, fw_record *r, fw_msg *m);
     void *self;
+    fw_scenario_law law;
 } fw_answer_source;
 
 typedef struct fw_answer_options {
@@ -31,8 +33,8 @@ typedef struct fw_percentile_row {
     double      bearing_deg, percentile;
     double      depth_mm, low_mm, high_mm; /* an end that does not exist is NAN */
     double      coverage;                  /* attained (order statistics) or nominal (averaged CDF); NAN: no interval */
-    const char *method;                    /* "order statistics" (T and direction constant) or "averaged CDF"
-                                            * (statistics/averaged.h says why that and not sectioning) */
+    const char *method;                    /* "order statistics" (T, direction and scenario constant), or "averaged CDF" (statistics/averaged.h says why
+                                            * that and not sectioning) and what it is made with: "control variates" (study/control.h), "randomisations" */
 } fw_percentile_row;
 
 typedef struct fw_point_row {

@@ -20,7 +20,7 @@ static void write_text(char *to, size_t size, const char *fmt, ...)
 
 static void sampling(fw_ledger_row *row, const fw_window *w, const fw_percentile_row *g)
 {
-    size_t n = w->depth->n + w->depth->n_failed;
+    size_t n = w->depth->n_good + w->depth->n_failed;
     SAY(row->row, "sampling");
     row->amount = g->depth_mm > 0 ? (g->high_mm - g->low_mm) / (2 * g->depth_mm) : NAN;
     if (isfinite(row->amount)) {
@@ -67,7 +67,7 @@ static void discretisation(fw_ledger_row *row, const fw_campaign *c, const fw_me
     SAY(row->row, "discretisation");
     row->amount = c->model.accuracy;
     SAY(row->shrinks_with, "accuracy: (the promise; measured energy truncation %.2g on average)",
-        w->depth->truncation / (double)w->depth->n);
+        w->depth->truncation / (double)w->depth->n_good);
     SAY(row->cost_to_halve, "not measured");
 }
 
@@ -96,7 +96,7 @@ static void failed_runs(fw_ledger_row *row, const fw_window *w, const fw_percent
     row->amount = 0;
     if (w->depth->n_failed == 0) {
         if (w->depth->n_second)
-            SAY(row->shrinks_with, "none failed; %zu of %zu at a first try, and not with finer steps", w->depth->n_second, w->depth->n);
+            SAY(row->shrinks_with, "none failed; %zu of %zu at a first try, and not with finer steps", w->depth->n_second, w->depth->n_good);
         else
             SAY(row->shrinks_with, "none failed");
         SAY(row->cost_to_halve, "none");
@@ -106,7 +106,7 @@ static void failed_runs(fw_ledger_row *row, const fw_window *w, const fw_percent
     fw_window_failure_ends(w, g->percentile / 100, &low, &high);
     row->amount = isfinite(high) && g->depth_mm > 0 ? (high - low) / (2 * g->depth_mm) : NAN;
     SAY(row->shrinks_with, "%zu of %zu failed; counted as 0 and as infinity they give P%g %.3g .. %.3g mm",
-        w->depth->n_failed, w->depth->n + w->depth->n_failed, g->percentile, low, high);
+        w->depth->n_failed, w->depth->n_good + w->depth->n_failed, g->percentile, low, high);
     SAY(row->cost_to_halve, "find the cause: run them again with --only-id");
 }
 
@@ -124,13 +124,13 @@ static void overlaps(fw_ledger_row *row, const fw_window *w)
     SAY(row->shrinks_with,
         "contact.stiffness: wear in contacts deeper than a tenth of the smaller radius, where discs are no longer rigid; %.2g %% of the time, at "
         "most %.2g of a radius",
-        100 * d->overlap_time / (double)d->n, d->overlap_most);
+        100 * d->overlap_time / (double)d->n_good, d->overlap_most);
 }
 
 static void packed_ice(fw_ledger_row *row, const fw_window *w)
 {
     const fw_depth *d = w->depth;
-    double          ice = d->ice_ratio / (double)d->n - 1, size = d->size_ratio / (double)d->n - 1;
+    double          ice = d->ice_ratio / (double)d->n_good - 1, size = d->size_ratio / (double)d->n_good - 1;
     SAY(row->row, "ice as packed");
     row->amount = fabs(ice);
     SAY(row->shrinks_with, "more ice per window: packed over wanted, mean over windows: concentration %+.2g %%, mean diameter %+.2g %%", 100 * ice,

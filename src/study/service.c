@@ -50,10 +50,7 @@ static void resample(const fw_campaign *c, const fw_window *w, size_t n, const d
     for (double year = 1; year <= n_years; year++) {
         double until = year == n_years ? windows : fmin(windows, round(windows * year / c->service.life_years));
         for (size_t i = 0; i < n_lives; i++)
-            for (double k = made; k < until; k++) {
-                double u = fw_random_uniform(&streams[i]), v = fw_random_uniform(&streams[i]);
-                sums[i] += fw_window_draw(w, u, v, fw_random_uniform(&streams[i]));
-            }
+            for (double k = made; k < until; k++) sums[i] += fw_window_draw(w, fw_random_uniform(&streams[i]));
         made = until;
         if (!(c->service.allowance > 0) && year < n_years) continue;
         for (size_t i = 0; i < n_lives; i++) sorted[i] = sums[i];

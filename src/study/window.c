@@ -12,8 +12,10 @@ static const fw_direction_weight *row_of(const fw_window *w, size_t i, size_t *n
 {
     const fw_depth *d = w->depth;
     *load = d->load + i * d->directions.n_used;
-    return fw_directions_row(&d->directions, d->direction_law[i], w->point, n);
+    return fw_directions_row(&d->directions, d->row[i].direction_law, w->point, n);
 }
+
+static double weight_of(const fw_window *w, size_t i) { return w->depth->control.calibration.weight[i]; }
 
 static int compare_doubles(const void *a, const void *b)
 {
@@ -21,8 +23,7 @@ static int compare_doubles(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Per realisation: mean depth; over all: the raw moments of load and with them those of depth (Y and arc
- * independent). */
+/* Per realisation: mean depth; over all: the raw moments of depth (Y and arc independent). */
 static void take_moments(fw_window *w)
 {
     const fw_depth *d = w->depth;
@@ -31,19 +32,18 @@ static void take_moments(fw_window *w)
         size_t                     n = 0;
         const double              *load = NULL;
         const fw_direction_weight *row = row_of(w, i, &n, &load);
-        double                     own = 0;
+        double                     own[1 + FW_SCALE_MOMENTS] = {0};
         for (size_t k = 0; k < n; k++) {
             double x = load[row[k].column], wx = row[k].weight * x;
-            own += wx;
-            sum[2] += wx * x;
-            sum[3] += wx * x * x;
+            own[1] += wx;
+            own[2] += wx * x;
+            own[3] += wx * x * x;
         }
-        sum[1] += own;
-        w->means[i] = own * d->scale.moment[1];
+        for (int k = 1; k <= FW_SCALE_MOMENTS; k++) sum[k] += weight_of(w, i) * own[k];
+        w->means[i] = own[1] * d->scale.moment[1];
     }
-    w->load = sum[1] / (double)d->n;
     w->moment[0] = 1;
-    for (int k = 1; k <= FW_SCALE_MOMENTS; k++) w->moment[k] = sum[k] / (double)d->n * d->scale.moment[k];
+    for (int k = 1; k <= FW_SCALE_MOMENTS; k++) w->moment[k] = sum[k] * d->scale.moment[k];
 }
 
 static fw_status make_mixture(fw_window *w, fw_msg *m)
@@ -59,7 +59,7 @@ static fw_status make_mixture(fw_window *w, fw_msg *m)
     FW_TRY(fw_alloc(&entries, n_entries, sizeof *entries, "loads of a measuring point", m));
     for (size_t i = 0; i < d->n; i++) {
         const fw_direction_weight *row = row_of(w, i, &n, &load);
-        for (size_t k = 0; k < n; k++) entries[at++] = (fw_mixture_entry){load[row[k].column], row[k].weight};
+        for (size_t k = 0; k < n; k++) entries[at++] = (fw_mixture_entry){load[row[k].column], row[k].weight * weight_of(w, i)};
     }
     fw_status s = fw_mixture_make(&w->mixture, &d->scale, n_entries, entries, m);
     free(entries);
@@ -69,8 +69,6 @@ static fw_status make_mixture(fw_window *w, fw_msg *m)
 static fw_status make(fw_window *w, fw_msg *m)
 {
     const fw_depth *d = w->depth;
-    FW_CHECK(d->n > 0, m, FW_E_FAILURES, "no realisation succeeded (%zu failed): there is nothing to answer from",
-             d->n_failed);
     FW_TRY(fw_alloc(&w->means, d->n, sizeof *w->means, "mean depths of a measuring point", m));
     take_moments(w);
     if (!w->is_sample) return make_mixture(w, m);
@@ -80,12 +78,20 @@ static fw_status make(fw_window *w, fw_msg *m)
     return FW_OK;
 }
 
+/* Order statistics are those of equal, independent draws. */
+static bool is_plain_sample(const fw_depth *d)
+{
+    bool is_plain = d->stride == 1 && !d->unit && !d->control.is_on && d->directions.is_single && d->scale.is_discrete && d->scale.n == 1;
+    for (size_t i = 0; i < d->n && is_plain; i++) is_plain = d->row[i].scenario.weight == d->row[0].scenario.weight;
+    return is_plain;
+}
+
 fw_status fw_window_make(fw_window *out, const fw_depth *d, size_t point, fw_msg *m)
 {
     memset(out, 0, sizeof *out);
     out->depth = d;
     out->point = point;
-    out->is_sample = d->directions.is_single && d->scale.is_discrete && d->scale.n == 1;
+    out->is_sample = is_plain_sample(d);
     fw_status s = make(out, m);
     if (s != FW_OK) fw_window_free(out);
     return s;
@@ -104,6 +110,10 @@ double fw_window_percentile(const fw_window *w, double p)
 {
     return w->is_sample ? fw_order_percentile(w->depth->n, w->sorted, p) : fw_mixture_quantile(&w->mixture, p);
 }
+
+double fw_window_draw(const fw_window *w, double u) { return fw_window_percentile(w, u); }
+
+/* ---- scatter ----------------------------------------------------------------------------------------------------- */
 
 /* P(D <= depth) in realisation i. This is asked a dozen times of every load of every point, hence no logarithms and no
  * divisions in the inner loops. */
@@ -130,49 +140,95 @@ static double own_cdf(const fw_window *w, size_t i, double depth, double ln_dept
     return fmin(sum, 1);
 }
 
-static void own_sums(void *self, double depth, double *sum, double *squares)
+/* values (n) := P(D <= depth) of every realisation; returns their weighted mean. */
+static double own_cdfs(const fw_window *w, double depth, double *values)
+{
+    double ln_depth = log(depth), sum = 0; /* -inf at 0: only loads of 0 count */
+    for (size_t i = 0; i < w->depth->n; i++) {
+        values[i] = own_cdf(w, i, depth, ln_depth);
+        sum += weight_of(w, i) * values[i];
+    }
+    return sum;
+}
+
+static void cdf_at(void *self, double depth, fw_averaged_at *out)
 {
     const fw_window *w = self;
-    double           ln_depth = log(depth); /* -inf at 0: only loads of 0 count */
-    *sum = *squares = 0;
-    for (size_t i = 0; i < w->depth->n; i++) {
-        double f = own_cdf(w, i, depth, ln_depth);
-        *sum += f;
-        *squares += f * f;
-    }
+    const fw_depth  *d = w->depth;
+    out->cdf = fmin(own_cdfs(w, depth, d->scratch), 1);
+    fw_calibration_residuals(&d->control.calibration, d->scratch);
+    out->spread = fw_spread_of(&d->units, d->scratch, d->scratch + d->n);
 }
+
+static double quantile_at(void *self, double level) { return fw_window_percentile(self, level); }
+
+static double failed_share(const fw_depth *d) { return d->failed_weight / (d->weight + d->failed_weight); }
 
 fw_interval fw_window_interval(const fw_window *w, double p, double confidence)
 {
     const fw_depth *d = w->depth;
     if (w->is_sample) return fw_order_interval(d->n, w->sorted, d->n_failed, p, confidence);
-    fw_window         self = *w; /* the callback borrows; it changes nothing */
-    fw_averaged_parts parts = {own_sums, &self};
-    return fw_averaged_interval(&w->mixture, d->n, d->n_failed, &parts, p, confidence);
+    fw_window   self = *w; /* the callbacks borrow; they change nothing but scratch */
+    fw_averaged x = {.at = cdf_at, .quantile = quantile_at, .self = &self, .n = d->n, .failed_share = failed_share(d)};
+    return fw_averaged_interval(&x, p, confidence);
+}
+
+const char *fw_window_method(const fw_window *w)
+{
+    if (w->is_sample) return "order statistics";
+    if (w->depth->unit) return w->depth->control.is_on ? "averaged CDF, control variates, randomisations" : "averaged CDF, randomisations";
+    return w->depth->control.is_on ? "averaged CDF, control variates" : "averaged CDF";
+}
+
+/* Values whose plain mean is the weighted one and whose scatter is that of the residuals: each realisation's, or each randomisation's, share in it. */
+static size_t pseudo_values(const fw_window *w, double *values)
+{
+    const fw_depth *d = w->depth;
+    const fw_units *u = &d->units;
+    double          units = (double)u->n_units;
+    double         *shares = u->unit ? values + d->n : values;
+    memcpy(values, w->means, d->n * sizeof *values);
+    fw_calibration_residuals(&d->control.calibration, values);
+    for (size_t r = 0; r < u->n_units && u->unit; r++) shares[r] = 0;
+    for (size_t i = 0; i < d->n; i++) {
+        double share = units * u->weight[i] * values[i];
+        if (u->unit)
+            shares[u->unit[i]] += share;
+        else
+            shares[i] = share;
+    }
+    for (size_t r = 0; r < u->n_units; r++) values[r] = w->moment[1] + shares[r];
+    return u->n_units;
 }
 
 fw_interval fw_window_mean_interval(const fw_window *w, double confidence)
 {
-    fw_interval v = fw_mean_interval(w->depth->n, w->means, w->depth->n_failed, confidence);
+    const fw_depth *d = w->depth;
+    size_t          n = pseudo_values(w, d->scratch), least = d->unit ? FW_MEAN_MIN_UNITS : FW_MEAN_MIN_N;
+    double          failed = failed_share(d);
+    fw_interval     v = fw_mean_interval(n, d->scratch, d->unit ? 0 : d->n_failed, least, confidence);
+    if (d->unit && d->n_failed) v.low *= 1 - failed, v.high = NAN;
     if (v.low < 0) v.low = 0; /* no wear is negative */
     return v;
 }
 
 void fw_window_failure_ends(const fw_window *w, double p, double *low, double *high)
 {
-    double n = (double)w->depth->n, failed = (double)w->depth->n_failed;
-    double low_level = (p * (n + failed) - failed) / n, high_level = p * (n + failed) / n;
+    double failed = failed_share(w->depth), low_level = (p - failed) / (1 - failed), high_level = p / (1 - failed);
     *low = low_level <= 0 ? 0 : fw_window_percentile(w, low_level);
     *high = high_level > 1 ? INFINITY : fw_window_percentile(w, high_level);
 }
 
-double fw_window_draw(const fw_window *w, double u_record, double u_arc, double u_factor)
+fw_window_scatter fw_window_scatter_at(const fw_window *w, double depth)
 {
-    size_t i = (size_t)(u_record * (double)w->depth->n), n = 0;
-    if (i >= w->depth->n) i = w->depth->n - 1;
-    const double              *load = NULL;
-    const fw_direction_weight *row = row_of(w, i, &n, &load);
-    size_t                     k = 0;
-    for (double sum = row[0].weight; k + 1 < n && sum < u_arc; sum += row[k].weight) k++;
-    return load[row[k].column] * fw_scale_quantile(&w->depth->scale, u_factor);
+    const fw_depth   *d = w->depth;
+    double           *f = d->scratch, mean = own_cdfs(w, depth, f), squares = 0, left = 0, n = (double)d->n;
+    fw_window_scatter out;
+    for (size_t i = 0; i < d->n; i++) squares += weight_of(w, i) * (f[i] - mean) * (f[i] - mean);
+    fw_calibration_residuals(&d->control.calibration, f);
+    for (size_t i = 0; i < d->n; i++) left += weight_of(w, i) * f[i] * f[i];
+    out.plain = mean * (1 - mean);
+    out.averaged = squares * n / (n - 1);
+    out.controlled = left;
+    return out;
 }

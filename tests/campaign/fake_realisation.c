@@ -70,6 +70,8 @@ fw_status fw_realise(const fw_model *model, const fw_scenario *scenario, const f
     out->speed         = scenario->speed;
     out->mix           = scenario->mix;
     out->cell          = scenario->cell;
+    out->weight        = scenario->weight;
+    out->randomisation = scenario->randomisation;
     out->window        = model->window;
     out->host_cpu_s    = spent;
     if (f->fail_every > 0 && id % f->fail_every == 0) {

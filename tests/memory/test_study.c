@@ -123,7 +123,7 @@ static uint64_t end_judging(void *self, fw_status status)
 /* A few windows at every level of everything that is studied, by one law. */
 static void sparse_scenario(const fw_campaign *c, uint64_t id, fw_scenario *out)
 {
-    *out = (fw_scenario){.seed = c->seed, .id = id, .concentration = 0.1, .speed = 1};
+    *out = (fw_scenario){.seed = c->seed, .id = id, .weight = 1, .randomisation = -1, .concentration = 0.1, .speed = 1};
 }
 
 static fw_status study_all(void *self, fw_msg *m)

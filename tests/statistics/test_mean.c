@@ -26,7 +26,7 @@ static double coverage(double sigma, size_t n, uint64_t part)
             double u = fw_random_uniform(&r);
             x[i] = sigma > 0 ? lognormal_quantile(sigma, u) : -log(u);
         }
-        fw_interval v = fw_mean_interval(n, x, 0, 0.95);
+        fw_interval v = fw_mean_interval(n, x, 0, FW_MEAN_MIN_N, 0.95);
         hit += v.low <= truth && truth <= v.high;
     }
     return (double)hit / REPEATS;
@@ -47,6 +47,53 @@ static void coverage_holds_for_skew_laws(void **state)
     }
 }
 
+/* 93 to 97 %, give or take two standard errors of 2000 repeats, 0.5 % each; at the edge where mean.h says so. */
+static void coverage_holds_where_it_is_offered(void **state)
+{
+    (void)state;
+    const size_t ns[] = {FW_MEAN_MIN_N, 150, 400};
+    for (int law = 0; law < N_LAWS; law++)
+        for (size_t k = 0; k < 3; k++) {
+            double    x[400], truth = law_mean((test_law)law);
+            int       hit = 0;
+            fw_random r;
+            fw_random_stream(&r, 3, FW_STREAM_TEST, ns[k], (uint64_t)law);
+            for (int repeat = 0; repeat < REPEATS; repeat++) {
+                for (size_t i = 0; i < ns[k]; i++) x[i] = law_draw((test_law)law, fw_random_uniform(&r));
+                fw_interval v = fw_mean_interval(ns[k], x, 0, FW_MEAN_MIN_N, 0.95);
+                hit += v.low <= truth && truth <= v.high;
+            }
+            double got = (double)hit / REPEATS;
+            if (!(got >= 0.92 && got <= 0.98)) fail_msg("law %d, n = %zu: coverage %g", law, ns[k], got);
+            print_message("law %d, n = %zu: coverage %g\n", law, ns[k], got);
+        }
+}
+
+/* Means of the randomisations of a design, each of 8 windows: as few as 16 of them. */
+static void means_of_randomisations_need_fewer(void **state)
+{
+    (void)state;
+    const size_t ns[] = {FW_MEAN_MIN_UNITS, 32};
+    for (int law = 0; law < N_LAWS; law++)
+        for (size_t k = 0; k < 2; k++) {
+            double    x[32], truth = law_mean((test_law)law);
+            int       hit = 0;
+            fw_random r;
+            fw_random_stream(&r, 4, FW_STREAM_TEST, ns[k], (uint64_t)law);
+            for (int repeat = 0; repeat < REPEATS; repeat++) {
+                for (size_t i = 0; i < ns[k]; i++) {
+                    x[i] = 0;
+                    for (int j = 0; j < 12; j++) x[i] += law_draw((test_law)law, fw_random_uniform(&r)) / 12;
+                }
+                fw_interval v = fw_mean_interval(ns[k], x, 0, FW_MEAN_MIN_UNITS, 0.95);
+                hit += v.low <= truth && truth <= v.high;
+            }
+            double got = (double)hit / REPEATS;
+            if (!(got >= 0.92 && got <= 0.98)) fail_msg("law %d, %zu randomisations: coverage %g", law, ns[k], got);
+            print_message("law %d, %zu randomisations: coverage %g\n", law, ns[k], got);
+        }
+}
+
 static void symmetric_samples_give_students_interval(void **state)
 {
     (void)state;
@@ -55,7 +102,7 @@ static void symmetric_samples_give_students_interval(void **state)
     for (size_t i = 0; i < 100; i++) x[i] = i % 2 ? 1 : 3;
     for (size_t i = 0; i < 100; i++) square += (x[i] - 2) * (x[i] - 2);
     double      half = 1.984217 * sqrt(square / 99 / 100);
-    fw_interval v = fw_mean_interval(100, x, 0, 0.95);
+    fw_interval v = fw_mean_interval(100, x, 0, FW_MEAN_MIN_N, 0.95);
     assert_near(fw_mean(100, x), 2, 1e-15);
     assert_near(v.low, 2 - half, 1e-6);
     assert_near(v.high, 2 + half, 1e-6);
@@ -66,17 +113,17 @@ static void failed_runs_and_ugly_samples(void **state)
     (void)state;
     double x[100];
     for (size_t i = 0; i < 100; i++) x[i] = 1 + (double)(i % 7);
-    fw_interval clean = fw_mean_interval(99, x, 0, 0.95), failed = fw_mean_interval(99, x, 1, 0.95);
+    fw_interval clean = fw_mean_interval(99, x, 0, FW_MEAN_MIN_N, 0.95), failed = fw_mean_interval(99, x, 1, FW_MEAN_MIN_N, 0.95);
     assert_true(failed.low < clean.low && isnan(failed.high));
     double with_zero[100];
     memcpy(with_zero, x, sizeof x);
     with_zero[99] = 0;
-    assert_near(failed.low, fw_mean_interval(100, with_zero, 0, 0.95).low, 1e-12);
+    assert_near(failed.low, fw_mean_interval(100, with_zero, 0, FW_MEAN_MIN_N, 0.95).low, 1e-12);
     assert_true(isnan(fw_mean(0, NULL)));
-    assert_true(isnan(fw_mean_interval(0, NULL, 0, 0.95).low) &&
-                isnan(fw_mean_interval(FW_MEAN_MIN_N - 1, x, 0, 0.95).coverage));
+    assert_true(isnan(fw_mean_interval(0, NULL, 0, FW_MEAN_MIN_N, 0.95).low) &&
+                isnan(fw_mean_interval(FW_MEAN_MIN_N - 1, x, 0, FW_MEAN_MIN_N, 0.95).coverage));
     for (size_t i = 0; i < 100; i++) x[i] = 5; /* no scatter at all */
-    fw_interval equal = fw_mean_interval(100, x, 0, 0.95);
+    fw_interval equal = fw_mean_interval(100, x, 0, FW_MEAN_MIN_N, 0.95);
     assert_near(equal.low, 5, 1e-15);
     assert_near(equal.high, 5, 1e-15);
 }
@@ -84,6 +131,8 @@ static void failed_runs_and_ugly_samples(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(coverage_holds_for_skew_laws),
+                                       cmocka_unit_test(coverage_holds_where_it_is_offered),
+                                       cmocka_unit_test(means_of_randomisations_need_fewer),
                                        cmocka_unit_test(symmetric_samples_give_students_interval),
                                        cmocka_unit_test(failed_runs_and_ugly_samples)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -69,6 +69,7 @@ static inline fw_status made_up_read(void *self, uint64_t id, fw_record *r, fw_m
     r->status = is_failed ? FW_E_NUMERIC : FW_OK;
     r->host_cpu_s = 2;
     r->wear_thickness = made_up_thickness(id);
+    r->weight = 1, r->randomisation = -1;
     memset(r->rings, 0, fw_record_n_rings(n, r->n_laws) * sizeof *r->rings);
     for (size_t k = 0; k < n && !is_failed; k++) {
         r->rings[k] = 1e-3; /* path [km] */

@@ -121,7 +121,7 @@ static fw_campaign small_campaign(double *bearings)
 
 static void scenario(const fw_campaign *c, uint64_t id, fw_scenario *out)
 {
-    *out = (fw_scenario){.seed = c->seed, .id = id, .concentration = 0.4, .speed = id % 2 ? 2 : 1};
+    *out = (fw_scenario){.seed = c->seed, .id = id, .weight = 1, .randomisation = -1, .concentration = 0.4, .speed = id % 2 ? 2 : 1};
 }
 
 static const fw_accuracy_row *find(const fw_accuracy *a, bool (*is)(const fw_accuracy_row *))

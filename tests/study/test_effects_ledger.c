@@ -27,7 +27,7 @@ static fw_campaign small_campaign(double *bearings)
 
 static void fast(const fw_campaign *c, uint64_t id, fw_scenario *out)
 {
-    *out = (fw_scenario){.seed = c->seed, .id = id, .concentration = 0.4, .speed = 2};
+    *out = (fw_scenario){.seed = c->seed, .id = id, .weight = 1, .randomisation = -1, .concentration = 0.4, .speed = 2};
 }
 
 static void fast_and_slow(const fw_campaign *c, uint64_t id, fw_scenario *out)
