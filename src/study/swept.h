@@ -1,0 +1,55 @@
+/* The swept strip: the macro-scale probabilistic model of a window, in milliseconds.
+ *
+ *       ice comes in with u            Floes of a mix lie at random, C / E[A] of them on a square metre. One of diameter D meets the
+ *      o   O    o                      structure (diameter Ds) if its track passes within (Ds + D)/2 of the middle:
+ *    -----------------  ^
+ *      O    o    ( S )  | Ds + D         touches in a window = C u T E[Ds + D] / E[A]
+ *    -----------------  v                load of a window    = C u T / E[A] x E[int over tracks of one hit's load]
+ *
+ * One hit's load is the kernel's own solution of one floe and the structure, with the model's friction, drag, contact law and so on, until the floe
+ * has gone (all contact ends within 8 (Ds + D) / 2u, but for tracks through the very middle). Tracks and floes are a Fibonacci lattice over
+ * (law of floes) x (angle of the touch, 0 to 90 degrees); the other half is its mirror image. Hits are solved at a few speeds; between them a hit's
+ * load goes as a power of speed (2.0 to 2.1 on the default ice from 1 cm/s to 2 m/s), with what is left of it straight over ln u.
+ *
+ * What is not there: ice on ice (floes pass through one another here: exact as C goes to 0; at 40 to 60 % the load is a half to a third of the
+ * window's), wind and tide (steady current along +x). So it is a check of order and shape beside a campaign's result, and a control variate: never a result.
+ * Measured, tests/validation/swept.md. */
+#ifndef FW_STUDY_SWEPT_H
+#define FW_STUDY_SWEPT_H
+
+#include "floewear/scenario.h"
+
+enum { FW_SWEPT_HITS = 89 }; /* solved per mix and speed */
+
+typedef struct fw_swept {
+    size_t  n_arcs, n_mixes, n_speeds;
+    double  structure_diameter, window; /* [m], [s] */
+    double  power;                      /* of speed, of a hit's load */
+    double *ln_speed;                   /* (n_speeds) of [m/s], evenly spaced; owned */
+    double *diameter, *area;            /* (n_mixes) E[D] [m], E[A] [m2]; owned */
+    double *load;                       /* (n_mixes, n_speeds, n_arcs) E[int over tracks of a hit's load] [MPa^m km m]; owned */
+    double *square;                     /* the same of its square [(MPa^m km)^2 m]; owned */
+    double  force_evaluations;          /* that it took */
+} fw_swept;
+
+/* Solves the hits for speeds from slowest to fastest [m/s]; law: index into the model's. Borrows nothing. FW_E_ARG: no such law, speeds or sizes;
+ * FW_E_NUMERIC, FW_E_LIMIT: a hit failed. */
+fw_status fw_swept_make(fw_swept *out, const fw_model *model, double slowest, double fastest, size_t law, fw_msg *m);
+void      fw_swept_free(fw_swept *s);
+
+/* Expected number of floes that hit the structure in a window. A record's hits count a floe again that bounced and came back after more than a
+ * second, as most do at 0.3 m/s and less. */
+double fw_swept_hits(const fw_swept *s, const fw_scenario *sc);
+
+/* A window's expected load is this sum of rows of s->load: share[0] of row + share[1] of row + 1. Of many windows shares may be added up first. */
+typedef struct fw_swept_share {
+    size_t row;
+    double share[2]; /* [1/m] */
+} fw_swept_share;
+fw_swept_share fw_swept_share_of(const fw_swept *s, const fw_scenario *sc);
+
+/* load: (n_arcs) expected load of a window [MPa^m km]. variance: (n_arcs) between windows of this very scenario [(MPa^m km)^2], floes being a Poisson
+ * stream: rate x E[load of one^2]; may be NULL. */
+void fw_swept_ring(const fw_swept *s, const fw_scenario *sc, double *load, double *variance);
+
+#endif
