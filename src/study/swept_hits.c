@@ -41,14 +41,21 @@ fw_model fw_swept_hit_model(const fw_model *model, size_t law)
     return m;
 }
 
-/* The ring turned by -reach .. reach and mirrored into row; weights sum to weight. */
+/* Of neighbours that are off by i arcs. */
+static double weight_at(long i, double arc, double angle, double reach)
+{
+    double off = (double)i * arc;
+    return fmax(0, 1 - fabs(off) / reach) * fmax(0, cos(angle + off));
+}
+
+/* The ring turned by -reach .. reach (0 .. reach of the first one) and mirrored into row; weights sum to weight. */
 static void smear(size_t n_arcs, const double *ring, double angle, double reach, bool is_first, double weight, fw_swept_row *row)
 {
     double arc = 4 * HALF_PI / (double)n_arcs, sum = 0;
-    long   far = (long)floor(reach / arc), n = (long)n_arcs, from = is_first ? 0 : -far;
-    for (long i = from; i <= far; i++) sum += (1 - fabs((double)i) * arc / reach) * cos(angle + (double)i * arc);
+    long   far = (long)(reach / arc), n = (long)n_arcs, from = is_first ? 0 : -far;
+    for (long i = from; i <= far; i++) sum += weight_at(i, arc, angle, reach);
     for (long i = from; i <= far; i++) {
-        double share = 0.5 * weight / sum * (1 - fabs((double)i) * arc / reach) * cos(angle + (double)i * arc);
+        double share = 0.5 * weight / sum * weight_at(i, arc, angle, reach);
         for (long k = 0; k < n; k++) {
             if (ring[k] == 0) continue;
             long at = (k + i + n) % n, mirror = n - 1 - at;
