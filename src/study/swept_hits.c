@@ -25,7 +25,8 @@ enum { N_ANGLES = 15 };
 static const double FIRST_ANGLE = 0.005;
 /* 0.3 % along the contact for 99 % of random hits (realisation/accuracy.c). */
 static const double HIT_ACCURACY = 0.1;
-/* Time for a floe to leave the wall, in ways of (Ds + D)/2 at the current's speed; from the first angle it takes 7.5. */
+/* Time for a floe to leave the wall, in ways of (Ds + D)/2 at the current's speed; from the first angle it takes 7.5. One that cannot roll hangs on
+ * friction for hundreds: to the end of the window (11 % of the load at 1 m/s). */
 static const double STAY = 20;
 /* A hit takes 20 to 300 evaluations on the spring, 3000 on ice that crushes. */
 static const double MOST_EVALUATIONS = 1e6;
@@ -74,7 +75,8 @@ static fw_status add_hit(const fw_model *model, const fw_floe *kind, double spee
     fw_floe         floe = {.x = -reach * cos(angle) - start, .y = reach * sin(angle), .diameter = kind->diameter, .thickness = kind->thickness, .vx = speed};
     fw_scene        scene = {.model = *model, .speed = speed, .temperature = -10, .duration = (STAY * reach + 2 * start) / speed, .n_floes = 1, .floes = &floe};
     fw_scene_result r;
-    fw_status       s = fw_scene_run(&scene, NULL, NULL, &r, m);
+    if (!(model->effects & FW_EFFECT_ROTATION)) scene.duration = fmax(scene.duration, model->window);
+    fw_status s = fw_scene_run(&scene, NULL, NULL, &r, m);
     if (s == FW_OK) {
         double share = (1 - cos(step)) / step * (j ? 2 * cos(angle) : 1); /* int of the weight times the cosine of the angle */
         smear(model->n_arcs, fw_record_load(&r.record, 0, FW_RING_LOAD), angle, step, j == 0, share * width, row);
