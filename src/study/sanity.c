@@ -16,22 +16,25 @@ enum { N_SPEEDS = 4000 };
 
 static size_t n_rows(const fw_sanity *s) { return s->swept.n_mixes * s->swept.n_speeds; }
 
-static double fastest_of(const fw_site *site)
+static void speeds_of(const fw_site *site, double *slowest, double *fastest)
 {
-    double fastest = 0;
-    for (size_t i = 0; i < site->n_cells; i++)
-        if (site->cells[i].probability > 0) fastest = fmax(fastest, site->cells[i].speed);
-    if (site->n_cells) return fastest;
-    fastest = fw_distribution_max(&site->speed);
-    return isfinite(fastest) ? fastest : fw_distribution_quantile(&site->speed, FASTEST_QUANTILE);
+    *slowest = INFINITY, *fastest = 0;
+    for (size_t i = 0; i < site->n_cells; i++) {
+        if (!(site->cells[i].probability > 0)) continue;
+        *slowest = fmin(*slowest, site->cells[i].speed), *fastest = fmax(*fastest, site->cells[i].speed);
+    }
+    if (site->n_cells == 0) *slowest = fw_distribution_min(&site->speed), *fastest = fw_distribution_max(&site->speed);
+    if (!isfinite(*fastest)) *fastest = fw_distribution_quantile(&site->speed, FASTEST_QUANTILE);
+    *slowest = fmax(*slowest, SLOWEST_SHARE * *fastest);
 }
 
 fw_status fw_sanity_begin(fw_sanity *out, const fw_campaign *c, size_t law, fw_msg *m)
 {
     fw_msg own = {""};
     memset(out, 0, sizeof *out);
-    double    fastest = fastest_of(&c->site);
-    fw_status s = fw_swept_make(&out->swept, &c->model, SLOWEST_SHARE * fastest, fastest, law, &own);
+    double slowest, fastest;
+    speeds_of(&c->site, &slowest, &fastest);
+    fw_status s = fw_swept_make(&out->swept, &c->model, slowest, fastest, law, &own);
     if (s == FW_E_NOMEM) return fw_fail(m, s, "%s", own.text);
     if (s != FW_OK) {
         snprintf(out->why, sizeof out->why, "%.*s", (int)sizeof out->why - 1, own.text);
