@@ -106,7 +106,7 @@ static void scenarios(void)
         fw_random random;
         fw_random_stream(&random, 9, FW_STREAM_TEST, i, 0);
         double      u = fw_random_uniform(&random), v = fw_random_uniform(&random), load[N_ARCS];
-        fw_scenario sc = {.seed = 9, .id = i, .concentration = u < 0.3 ? 0.2 : u < 0.8 ? 0.4 : 0.6, .mix = fw_random_uniform(&random) < 0.6 ? 0 : 1};
+        fw_scenario sc = {.seed = 9, .id = i, .concentration = u < 0.3 ? 0.2 : u < 0.8 ? 0.4 : 0.6, .mix = fw_random_uniform(&random) < 0.6 ? 0u : 1u};
         fw_record   r;
         sc.speed = fw_distribution_quantile(&speed, v);
         run(&m, &sc, &r);
