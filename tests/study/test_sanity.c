@@ -80,7 +80,7 @@ static void the_strip_against_itself(void **state)
             fw_swept_ring(&s.strip, &sc, ring, NULL);
             if (id == 3) continue; /* it failed */
             plain += sum_of(ring);
-            crowded += sum_of(ring) * (1 + 1.75 * sc.concentration + 0.9 * sc.concentration * sc.concentration);
+            crowded += sum_of(ring) * (1 + 1.7 * sc.concentration + 0.93 * sc.concentration * sc.concentration);
         }
         CHECK_RELATIVE(a.swept_ring.usual, crowded / plain, 1e-10);
         fw_answer_free(&a);

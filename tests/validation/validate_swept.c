@@ -140,7 +140,7 @@ int main(int argc, char **argv)
     int n_off = conditions(false);
     SAY("\n%d of the 40 means lie more than four standard errors and 1 %% off.\n\n## Floes that meet\n\n", n_off);
     conditions(true);
-    SAY("\nThe load on the whole ring goes with the concentration alone: 1 + 1.75 C + 0.9 C^2 (`fw_swept_crowding`) is within 1 to 2 %% of it, at any speed and in both "
+    SAY("\nThe load on the whole ring goes with the concentration alone: 1 + 1.7 C + 0.93 C^2 (`fw_swept_crowding`) is within 1 %% of its mean, at any speed and in both "
         "mixes.\n\n## A campaign's scenarios\n\nCorrelation of %d windows with the strip, speed, ice and mix drawn as in `campaigns/raahe.yaml`:\n\n",
         N_CAMPAIGN);
     scenarios();
