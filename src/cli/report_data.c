@@ -149,6 +149,31 @@ static void json_ledger(fw_json *j, const fw_answer *a)
     fw_json_end(j);
 }
 
+static void json_swept(fw_json *j, const fw_answer *a)
+{
+    bool is_there = a->n_swept > 0;
+    fw_json_key(j, "swept_strip");
+    fw_json_begin_object(j);
+    number(j, "ring_ratio", is_there ? a->swept_ring.ratio : NAN);
+    number(j, "usual_ratio", is_there ? a->swept_ring.usual : NAN);
+    number(j, "law_over_sample", is_there ? a->swept_ring.law_over_sample : NAN);
+    string(j, "why_not", is_there ? NULL : a->swept_why);
+    fw_json_key(j, "points");
+    fw_json_begin_array(j);
+    for (size_t i = 0; i < a->n_swept; i++) {
+        const fw_sanity_row *row = &a->swept[i];
+        fw_json_begin_object(j);
+        count(j, "point", row->point);
+        number(j, "bearing_deg", row->bearing_deg);
+        number(j, "strip_mm", row->strip_mm);
+        number(j, "law_mm", row->law_mm);
+        number(j, "ratio", row->ratio);
+        fw_json_end(j);
+    }
+    fw_json_end(j);
+    fw_json_end(j);
+}
+
 /* Only what the campaign asks for. */
 static void json_after(fw_json *j, const fw_campaign *c, const fw_answer *a)
 {
@@ -199,6 +224,7 @@ void fw_report_print_json(FILE *to, const fw_campaign *c, const fw_answer *a)
     json_points(&j, a);
     json_life(&j, a);
     json_ledger(&j, a);
+    json_swept(&j, a);
     fw_json_key(&j, "effects_ledger"), fw_effects_json_rows(&j, &a->effects);
     fw_json_key(&j, "effects_measured"), fw_json_string(&j, a->effects.n_rows ? a->effects.origin : "nowhere");
     json_after(&j, c, a);

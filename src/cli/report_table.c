@@ -141,6 +141,23 @@ static void print_governing(FILE *to, const fw_campaign *c, const fw_answer *a)
     }
 }
 
+/* What floes that hit one by one would do: whether the result is of the right order. */
+static void print_swept(FILE *to, const fw_answer *a)
+{
+    const fw_sanity_ring *r = &a->swept_ring;
+    if (a->n_swept == 0) {
+        fprintf(to, "sanity check: no swept strip: %s\n", a->swept_why);
+        return;
+    }
+    if (!isfinite(r->ratio)) {
+        fprintf(to, "sanity check: by the swept strip, floes that hit one by one in the same conditions, nothing wears\n");
+        return;
+    }
+    fprintf(to, "sanity check: the mean window wears the wall %.3g times as much as the swept strip, floes that hit one by one in the same conditions (floes that "
+                "press one another: usually %.3g times); by the strip, the site's law wears %.3g times the mean of these conditions\n",
+            r->ratio, r->usual, r->law_over_sample);
+}
+
 static void print_water_level(FILE *to, const fw_campaign *c, const fw_answer *a)
 {
     const fw_water_level *w = &a->water_level;
@@ -253,6 +270,7 @@ void fw_report_print_table(FILE *to, const fw_campaign *c, const fw_answer *a)
     print_heading(to, c, a);
     print_points(to, a);
     print_governing(to, c, a);
+    print_swept(to, a);
     print_water_level(to, c, a);
     print_life(to, c, a);
     print_ledger(to, a);

@@ -4,7 +4,7 @@
 #include "cli/effects_tables.h"
 #include "cli/table_builder.h"
 
-enum { N_TABLES = 5, MOST_TABLES = N_TABLES + FW_EFFECTS_TABLES + 1 };
+enum { N_TABLES = 5, MOST_TABLES = N_TABLES + FW_EFFECTS_TABLES + 2 };
 
 static void build_percentiles(fw_table_builder *b, const fw_answer *a, fw_msg *m)
 {
@@ -68,6 +68,20 @@ static void build_ledger(fw_table_builder *b, const fw_answer *a, fw_msg *m)
     }
 }
 
+static void build_swept(fw_table_builder *b, const fw_answer *a, fw_msg *m)
+{
+    fw_table_start(b, "swept_strip", a->n_swept, m);
+    FW_TABLE_COUNTS(b, a->swept, fw_sanity_row, point, "measuring point, from 1");
+    FW_TABLE_NUMBERS(b, a->swept, fw_sanity_row, bearing_deg, "degree", "outward normal, clockwise from north");
+    FW_TABLE_NUMBERS(b, a->swept, fw_sanity_row, strip_mm, "mm",
+                     "mean abrasion depth of one window by the swept strip (floes that hit one by one), over the records' scenarios");
+    FW_TABLE_NUMBERS(b, a->swept, fw_sanity_row, law_mm, "mm", "the same over the site's law of scenarios");
+    FW_TABLE_NUMBERS(b, a->swept, fw_sanity_row, ratio, "1", "mean depth of the campaign over strip_mm; NaN: the strip has none");
+    double *ring = fw_table_number_column(b, "ring_ratio", "1", "mean load of the campaign over the strip's, over the whole ring");
+    double *usual = fw_table_number_column(b, "usual_ratio", "1", "what that is on the default ice at these concentrations");
+    for (size_t i = 0; ring && usual && i < a->n_swept; i++) ring[i] = a->swept_ring.ratio, usual[i] = a->swept_ring.usual;
+}
+
 static void build_water_level(fw_table_builder *b, const fw_answer *a, fw_msg *m)
 {
     const fw_water_level *w = &a->water_level;
@@ -89,6 +103,7 @@ fw_status fw_report_write(const char *path, const fw_campaign *c, const fw_recor
     build_life(&builders[2], a, m);
     build_ledger(&builders[3], a, m);
     fw_accuracy_file_build_measured(&builders[4], &a->measured, m);
+    if (a->n_swept) build_swept(&builders[n++], a, m);
     if (a->effects.n_rows) fw_effects_tables_build(&builders[n], &a->effects, m), n += FW_EFFECTS_TABLES;
     if (c->after.has_water_level) build_water_level(&builders[n++], a, m);
     for (size_t i = 0; i < n; i++) {

@@ -1,6 +1,7 @@
 #include "study/answer.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -76,8 +77,8 @@ static fw_status read_options(question *q, const fw_campaign *c, const fw_answer
     return choose_points(q, c, o, m);
 }
 
-/* Stream the records through, one in memory at a time. */
-static fw_status collect(fw_depth *d, const fw_campaign *c, const fw_answer_source *source, fw_msg *m)
+/* Stream the records through, one in memory at a time. sanity: may be NULL. */
+static fw_status collect(fw_depth *d, fw_sanity *sanity, const fw_campaign *c, const fw_answer_source *source, fw_msg *m)
 {
     fw_record r;
     FW_TRY(fw_record_init(&r, c->model.n_arcs, c->model.n_laws, m));
@@ -85,6 +86,7 @@ static fw_status collect(fw_depth *d, const fw_campaign *c, const fw_answer_sour
     for (uint64_t id = 0; id < source->n && s == FW_OK; id++) {
         s = source->read(source->self, id, &r, m);
         if (s == FW_OK) s = fw_depth_add(d, &r, m);
+        if (s == FW_OK && sanity) fw_sanity_add(sanity, &r, 1);
     }
     fw_record_free(&r);
     return s == FW_OK && d->n > 0 ? fw_depth_settle(d, source->law.point ? &source->law : NULL, m) : s;
@@ -255,17 +257,36 @@ static fw_status answer(fw_answer *a, const fw_campaign *c, const question *q, c
     return s;
 }
 
+/* The swept strip beside the points that were answered. */
+static fw_status check_sanity(fw_answer *a, const fw_campaign *c, const fw_depth *d, const fw_sanity *sanity, fw_msg *m)
+{
+    snprintf(a->swept_why, sizeof a->swept_why, "%s", sanity->why);
+    if (sanity->why[0]) return FW_OK;
+    FW_TRY(fw_alloc(&a->swept, a->n_points, sizeof *a->swept, "rows of the swept strip", m));
+    a->n_swept = a->n_points;
+    FW_TRY(fw_sanity_end(sanity, c, &d->directions, d->scale.moment[1], a->swept, &a->swept_ring, m));
+    for (size_t i = 0; i < a->n_swept; i++) {
+        fw_sanity_row *row = &a->swept[i];
+        row->point = a->points[i].point, row->bearing_deg = a->points[i].bearing_deg;
+        row->ratio = row->strip_mm > 0 ? a->points[i].mean_mm / row->strip_mm : NAN;
+    }
+    return FW_OK;
+}
+
 fw_status fw_answer_make(fw_answer *out, const fw_campaign *c, const fw_answer_source *source,
                          const fw_answer_options *o, fw_msg *m)
 {
-    question q;
-    fw_depth d;
+    question  q;
+    fw_depth  d;
+    fw_sanity sanity;
     memset(out, 0, sizeof *out);
     memset(&q, 0, sizeof q);
     memset(&d, 0, sizeof d);
+    memset(&sanity, 0, sizeof sanity);
     fw_status s = read_options(&q, c, o, m);
     if (s == FW_OK) s = fw_depth_make(&d, c, q.law, q.n_points, q.bearings, m);
-    if (s == FW_OK) s = collect(&d, c, source, m);
+    if (s == FW_OK) s = fw_sanity_begin(&sanity, c, q.law, m);
+    if (s == FW_OK) s = collect(&d, &sanity, c, source, m);
     if (s == FW_OK) {
         out->n = source->n;
         out->n_failed = d.n_failed;
@@ -277,7 +298,9 @@ fw_status fw_answer_make(fw_answer *out, const fw_campaign *c, const fw_answer_s
         if (o && o->effects) out->effects = *o->effects;
         out->design_percentile = choose_design_percentile(c, &q);
         s = answer(out, c, &q, &d, m);
+        if (s == FW_OK) s = check_sanity(out, c, &d, &sanity, m);
     }
+    fw_sanity_free(&sanity);
     fw_depth_free(&d);
     free_question(&q);
     if (s != FW_OK) fw_answer_free(out);
@@ -291,6 +314,7 @@ void fw_answer_free(fw_answer *a)
     free(a->points);
     free(a->life);
     free(a->ledger);
+    free(a->swept);
     memset(a, 0, sizeof *a);
 }
 
@@ -320,7 +344,7 @@ fw_status fw_answer_half_width(const fw_campaign *c, const fw_answer_source *sou
     *half_width = INFINITY;
     FW_CHECK(c->points.n > 0, m, FW_E_ARG, "the campaign has no measuring points");
     FW_TRY(fw_depth_make(&d, c, 0, c->points.n, c->points.bearing, m));
-    fw_status s = collect(&d, c, source, m);
+    fw_status s = collect(&d, NULL, c, source, m);
     if (s == FW_OK && d.n > 0) { /* with nothing but failures the width stays infinite */
         s = fw_alloc(&widths, d.n_points, sizeof *widths, "interval widths", m);
         for (size_t i = 0; i < d.n_points && s == FW_OK; i++) s = measure_width(c, &d, i, &widths[i], m);

@@ -6,6 +6,7 @@
 #include "floewear/campaign.h"
 #include "study/effects_ledger.h"
 #include "study/measured.h"
+#include "study/sanity.h"
 #include "study/water_level.h"
 
 /* Reads record id (0 .. n-1) into r, which is initialised with the campaign's sizes. law: what the site's scenarios are drawn from, for control
@@ -78,6 +79,10 @@ typedef struct fw_answer {
     fw_effects_ledger  effects;  /* what its rows of switched-off effects are made from */
     size_t             n_ledger;
     fw_ledger_row     *ledger;
+    size_t             n_swept;        /* n_points, or 0: there is no strip beside it */
+    fw_sanity_row     *swept;
+    fw_sanity_ring     swept_ring;
+    char               swept_why[160]; /* there is none */
     fw_law_scatter     law_scatter;
     fw_water_level     water_level; /* of the governing point */
 } fw_answer;

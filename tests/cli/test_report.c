@@ -53,7 +53,7 @@ static void all_forms_say_the_same(void **state)
     const char *names[] = {"\"campaign\"", "\"percentiles\"",  "\"points\"",       "\"service_life\"",
                            "\"ledger\"",   "\"point\"",        "\"bearing_deg\"",  "\"percentile\"",
                            "\"mean_mm\"",  "\"path_km\"",      "\"impact_share\"", "\"row\"",
-                           "\"amount\"",   "\"shrinks_with\"", "\"cost_to_halve\""};
+                           "\"amount\"",   "\"shrinks_with\"", "\"cost_to_halve\"", "\"swept_strip\"", "\"ring_ratio\": null"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) assert_non_null(strstr(json, names[i]));
 
     char *line = strchr(csv, '\n') + 1; /* after the heading: point,bearing,percentile,depth,... */
@@ -71,14 +71,41 @@ static void all_forms_say_the_same(void **state)
     assert_non_null(strstr(table, "governing: point 13"));
     assert_non_null(strstr(table, "20000 independent windows"));
     assert_non_null(strstr(table, "not modelled: level-ice crushing"));
+    assert_non_null(strstr(table, "sanity check: no swept strip: structure radius")); /* made up, without one */
     free(json);
     free(csv);
     free(table);
     fw_answer_free(&a);
 }
 
+static void swept_strip_in_all_forms(void **state)
+{
+    (void)state;
+    double           bearings[24];
+    fw_campaign      c = made_up_campaign(bearings);
+    made_up          s = {.campaign = &c, .sigma = 1};
+    fw_answer_source source = made_up_source(&s, 40);
+    fw_sanity_row    rows[24] = {{0}};
+    fw_answer        a;
+    char            *json, *table;
+    assert_int_equal(fw_answer_make(&a, &c, &source, NULL, NULL), FW_OK);
+    for (size_t i = 0; i < 24; i++) rows[i] = (fw_sanity_row){.point = i + 1, .strip_mm = 0.5, .law_mm = 0.25, .ratio = i == 23 ? NAN : 1.75};
+    a.n_swept = 24, a.swept = rows, a.swept_ring = (fw_sanity_ring){1.75, 1.875, 0.5};
+    write_to_text(fw_report_print_json, &c, &a, &json);
+    write_to_text(fw_report_print_table, &c, &a, &table);
+    assert_true(json_number(json, "\"ring_ratio\": ", 0) == 1.75 && json_number(json, "\"usual_ratio\": ", 0) == 1.875);
+    assert_true(json_number(json, "\"law_over_sample\": ", 0) == 0.5 && json_number(json, "\"strip_mm\": ", 23) == 0.5);
+    assert_true(json_number(json, "\"law_mm\": ", 5) == 0.25 && json_number(json, "\"ratio\": ", 22) == 1.75);
+    assert_non_null(strstr(json, "\"ratio\": null"));
+    assert_non_null(strstr(table, "1.75 times as much as the swept strip"));
+    free(json);
+    free(table);
+    a.swept = NULL, a.n_swept = 0;
+    fw_answer_free(&a);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(all_forms_say_the_same)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(all_forms_say_the_same), cmocka_unit_test(swept_strip_in_all_forms)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,7 +11,7 @@
 
 static const char text[] = "name: small\n"
                            "structure: {measuring_points: 4}\n"
-                           "ice: {temperature: {uniform: [-12 degC, -2 degC]}, concentration: 40 %}\n"
+                           "ice: {temperature: {uniform: [-12 degC, -2 degC]}, concentration: 40 %, thickness_mixes: [{probability: 1, classes: {0.5 m: 1}}]}\n"
                            "current: {speed: {uniform: [1 m/s, 2 m/s]}, direction: {rose: {0 deg: 1, 90 deg: 2}}}\n"
                            "exposure: {window: 5 s, warm_up: 1 s}\n"
                            "precision: {max_realisations: 4}\n"
@@ -174,15 +174,15 @@ static void whole(void **state)
     (void)state;
     help_save(file, (const unsigned char *)text, strlen(text));
     session s = {.is_resumed = false};
-    inject_walk(&(inject_case){.name = "campaign", .begin = begin, .run = run, .end = end, .self = &s, .stride = 13});
+    inject_walk(&(inject_case){.name = "campaign", .begin = begin, .run = run, .end = end, .self = &s, .stride = 41});
     s = (session){.is_resumed = true};
     inject_walk(
-        &(inject_case){.name = "campaign made again", .begin = begin, .run = run, .end = end, .self = &s, .stride = 37});
+        &(inject_case){.name = "campaign made again", .begin = begin, .run = run, .end = end, .self = &s, .stride = 97});
     unlink(results);
     make_choice();
     s = (session){.is_resumed = false};
     inject_walk(&(inject_case){
-        .name = "campaign with chosen numerics and effects", .begin = begin, .run = run, .end = end, .self = &s, .stride = 31});
+        .name = "campaign with chosen numerics and effects", .begin = begin, .run = run, .end = end, .self = &s, .stride = 89});
     inject_walk(&(inject_case){.name = "choice of numerics and effects", .run = choose, .end = end_choose, .self = &s});
     inject_walk(&(inject_case){
         .name = "files of a campaign", .begin = begin_files, .run = open_files, .end = end_files, .self = &s});
