@@ -91,26 +91,21 @@ static void run_quantity(const fw_campaign *c, char *out, size_t size)
 }
 
 /* "P90 2.31e-04 mm +- 12 %, point 5" from the first n realisations. */
-static fw_status run_estimate(run_session *s, uint64_t n, char *out, size_t size, double *half_width, fw_msg *m)
+static fw_status run_estimate(run_session *s, uint64_t n, char *out, size_t size, fw_msg *m)
 {
     const fw_campaign *c      = s->campaign;
     fw_answer_source   source = fw_run_files_answer(&s->files, n);
-    double             value  = NAN;
-    size_t             point  = 0;
+    fw_reached         r;
     char               quantity[32], interval[32];
 
-    FW_TRY(fw_answer_half_width(c, &source, half_width, &value, &point, m));
+    FW_TRY(fw_answer_reached(c, &source, &r, m));
     run_quantity(c, quantity, sizeof quantity);
-    if (!isfinite(*half_width)) {
+    if (!isfinite(r.half_width)) {
         snprintf(interval, sizeof interval, "+- ?");
     } else {
-        snprintf(interval, sizeof interval, *half_width < 0.1 ? "+- %.2g %%" : "+- %.0f %%", 100.0 * *half_width);
+        snprintf(interval, sizeof interval, r.half_width < 0.1 ? "+- %.2g %%" : "+- %.0f %%", 100.0 * r.half_width);
     }
-    if (point > 0) {
-        snprintf(out, size, "%s %.3g mm %s, point %zu", quantity, value, interval, point);
-    } else {
-        snprintf(out, size, "%s %.3g mm %s", quantity, value, interval);
-    }
+    snprintf(out, size, "%s %.3g mm %s, point %zu", quantity, r.value_mm, interval, r.point);
     return FW_OK;
 }
 
@@ -119,12 +114,12 @@ static fw_status run_estimate(run_session *s, uint64_t n, char *out, size_t size
 static void run_show(void *self, const fw_progress *p)
 {
     run_session *s   = self;
-    double       now = fw_seconds(), half_width;
+    double       now = fw_seconds();
     fw_msg       m   = {.text = ""};
 
     if (p->prefix >= 2 && p->prefix != s->estimated_n && now - s->estimated > fmax(2.0, 50.0 * s->estimate_cost)) {
         /* An estimate that cannot be made is no reason to end a campaign; the looks report what is wrong. */
-        if (run_estimate(s, p->prefix, s->line.estimate, sizeof s->line.estimate, &half_width, &m) != FW_OK) {
+        if (run_estimate(s, p->prefix, s->line.estimate, sizeof s->line.estimate, &m) != FW_OK) {
             s->line.estimate[0] = '\0';
         }
         s->estimated     = fw_seconds();
@@ -138,10 +133,10 @@ static fw_status run_look(void *self, uint64_t n, bool *is_enough, fw_msg *m)
 {
     run_session     *s          = self;
     fw_answer_source source     = fw_run_files_answer(&s->files, n);
-    double           half_width = INFINITY;
+    fw_reached       r;
 
-    FW_TRY(fw_answer_half_width(s->campaign, &source, &half_width, NULL, NULL, m));
-    *is_enough = half_width <= s->campaign->precision.half_width;
+    FW_TRY(fw_answer_reached(s->campaign, &source, &r, m));
+    *is_enough = r.is_enough;
     return FW_OK;
 }
 

@@ -9,8 +9,10 @@ double fw_averaged_effective_size(const fw_averaged_at *at, double confidence)
     double       plain = at->cdf * (1 - at->cdf), upper = 0.5 + 0.5 * confidence;
     if (isnan(at->spread.variance)) return 0;
     if (!(plain > 1e-15) || !(at->spread.variance > 0)) return most;
-    double known = gsl_cdf_ugaussian_Pinv(upper) / gsl_cdf_tdist_Pinv(upper, at->spread.dof);
-    return fmin(plain / at->spread.variance * known * known, most);
+    double n = plain / at->spread.variance, of_steps = (1 - 4 * plain) / (plain * n), excess = fmax(0, at->spread.vov - of_steps);
+    double dof = excess > 0 ? fmax(1, fmin(at->spread.dof, 2 / excess)) : at->spread.dof;
+    double known = gsl_cdf_ugaussian_Pinv(upper) / gsl_cdf_tdist_Pinv(upper, dof);
+    return fmin(n * known * known, most);
 }
 
 /* k below n p with P(Bin(n, p) < k) + P(Bin = k) / 2 = tail, mid-P, for real n and k: between P(Bin <= k) = I_{1-p}(n - k, k + 1) and the same

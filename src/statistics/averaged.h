@@ -30,7 +30,9 @@ typedef struct fw_averaged_at {
     fw_spread spread;
 } fw_averaged_at;
 
-/* n_effective, less what is lost by estimating the variance with few degrees of freedom: (normal quantile / t quantile)^2. At most 1e8. */
+/* n_effective, less what is lost by estimating the variance with few degrees of freedom: (normal quantile / t quantile)^2. Where few realisations carry the
+ * variance there are fewer of them: 2 / vov, vov less that of a plain sample's steps, (1 - 4 F (1 - F)) / (n F (1 - F)), which the binomial interval
+ * allows for itself. At most 1e8. */
 double fw_averaged_effective_size(const fw_averaged_at *at, double confidence);
 
 /* Levels of the averaged CDF at which the ends of the p-quantile's interval lie; NAN where there is none. */

@@ -1,5 +1,6 @@
 #include "statistics/calibrate.h"
 
+#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -67,18 +68,99 @@ static void make_functions(fw_calibration *c, size_t p, const double *basis, con
 
 fw_status fw_calibration_make(fw_calibration *out, size_t n, const double *plain, size_t p, const double *basis, const double *totals, fw_msg *m)
 {
-    double *v = NULL, *known = NULL;
+    double *v = NULL;
     *out = (fw_calibration){.n = n, .plain = plain};
     FW_CHECK(n > 0, m, FW_E_ARG, "no realisation to calibrate");
     fw_status s = fw_alloc(&out->function, n * (p + 1), sizeof *out->function, "functions of scenarios", m);
     if (s == FW_OK) s = fw_alloc(&out->weight, n, sizeof *out->weight, "calibrated weights", m);
     if (s == FW_OK) s = fw_alloc(&out->alone, n, sizeof *out->alone, "scales of residuals", m);
     if (s == FW_OK) s = fw_alloc(&v, n, sizeof *v, "a function of scenarios", m);
-    if (s == FW_OK) s = fw_alloc(&known, p + 1, sizeof *known, "means of functions", m);
-    if (s == FW_OK) make_functions(out, p, basis, totals, v, known);
+    if (s == FW_OK) s = fw_alloc(&out->known, p + 1, sizeof *out->known, "means of functions", m);
+    if (s == FW_OK) make_functions(out, p, basis, totals, v, out->known);
     free(v);
-    free(known);
     if (s != FW_OK) fw_calibration_free(out);
+    return s;
+}
+
+/* ---- raking ------------------------------------------------------------------------------------------------------ */
+
+/* On the Hessian, the unit matrix at the start: where weights pile up on a few realisations it would not be definite any more. */
+static const double RIDGE = 1e-9;
+
+/* The convex function whose gradient is what is left to the means: log sum a exp(lambda'q) - lambda'known, with gradient and Hessian. lambda[0] is
+ * taken by the logarithm. weight (n): softmax. */
+static double potential(const fw_calibration *c, const double *lambda, double *weight, gsl_vector *gradient, gsl_matrix *hessian)
+{
+    size_t p = c->n_functions;
+    double most = -INFINITY, sum = 0, value = 0;
+    for (size_t i = 0; i < c->n; i++) {
+        double at = 0;
+        for (size_t k = 1; k < p; k++) at += lambda[k] * c->function[i * p + k];
+        weight[i] = at;
+        most = fmax(most, at);
+    }
+    for (size_t i = 0; i < c->n; i++) weight[i] = c->plain[i] * exp(weight[i] - most), sum += weight[i];
+    for (size_t i = 0; i < c->n; i++) weight[i] /= sum;
+    gsl_vector_set_zero(gradient);
+    gsl_matrix_set_zero(hessian);
+    for (size_t i = 0; i < c->n; i++)
+        for (size_t k = 1; k < p; k++) {
+            double q = weight[i] * c->function[i * p + k];
+            *gsl_vector_ptr(gradient, k - 1) += q;
+            for (size_t l = 1; l <= k; l++) *gsl_matrix_ptr(hessian, k - 1, l - 1) += q * c->function[i * p + l];
+        }
+    value = log(sum) + most;
+    for (size_t k = 1; k < p; k++) value -= lambda[k] * c->known[k];
+    for (size_t k = 1; k < p; k++)
+        for (size_t l = 1; l <= k; l++) *gsl_matrix_ptr(hessian, k - 1, l - 1) -= gsl_vector_get(gradient, k - 1) * gsl_vector_get(gradient, l - 1);
+    for (size_t k = 1; k < p; k++) {
+        *gsl_vector_ptr(gradient, k - 1) -= c->known[k];
+        *gsl_matrix_ptr(hessian, k - 1, k - 1) += RIDGE;
+    }
+    return value;
+}
+
+/* Newton's method with halved steps. */
+static bool minimise(const fw_calibration *c, double *lambda, double *next, double *weight, gsl_vector *g, gsl_vector *step, gsl_matrix *H)
+{
+    enum { ROUNDS = 60, HALVINGS = 12 };
+    size_t p = c->n_functions;
+    double value = potential(c, lambda, weight, g, H);
+    for (int round = 0; round < ROUNDS; round++) {
+        double left = 0;
+        for (size_t k = 0; k + 1 < p; k++) left = fmax(left, fabs(gsl_vector_get(g, k)));
+        if (left < 1e-11) return true;
+        if (gsl_linalg_cholesky_decomp1(H) != GSL_SUCCESS || gsl_linalg_cholesky_solve(H, g, step) != GSL_SUCCESS) return false;
+        double factor = 1, was = value;
+        for (int halving = 0; halving < HALVINGS; halving++, factor *= 0.5) {
+            for (size_t k = 1; k < p; k++) next[k] = lambda[k] - factor * gsl_vector_get(step, k - 1);
+            value = potential(c, next, weight, g, H);
+            if (value <= was + 1e-14 * fabs(was)) break;
+        }
+        if (!(value <= was + 1e-14 * fabs(was))) return false;
+        memcpy(lambda, next, p * sizeof *lambda);
+    }
+    return false;
+}
+
+fw_status fw_calibration_rake(fw_calibration *c, bool *is_done, fw_msg *m)
+{
+    size_t  p = c->n_functions;
+    double *work = NULL, *weight = NULL;
+    *is_done = p == 1;
+    if (p == 1) return FW_OK;
+    FW_TRY(fw_alloc(&work, 2 * p, sizeof *work, "multipliers", m));
+    fw_status   s = fw_alloc(&weight, c->n, sizeof *weight, "raked weights", m);
+    gsl_vector *g = gsl_vector_alloc(p - 1), *step = gsl_vector_alloc(p - 1);
+    gsl_matrix *H = gsl_matrix_alloc(p - 1, p - 1);
+    if (s == FW_OK && !(g && step && H)) s = fw_fail(m, FW_E_NOMEM, "out of memory: raking");
+    if (s == FW_OK) *is_done = minimise(c, work, work + p, weight, g, step, H);
+    if (*is_done) memcpy(c->weight, weight, c->n * sizeof *weight);
+    if (g) gsl_vector_free(g);
+    if (step) gsl_vector_free(step);
+    if (H) gsl_matrix_free(H);
+    free(work);
+    free(weight);
     return s;
 }
 
@@ -88,6 +170,7 @@ void fw_calibration_free(fw_calibration *c)
     free(c->function);
     free(c->weight);
     free(c->alone);
+    free(c->known);
     memset(c, 0, sizeof *c);
 }
 

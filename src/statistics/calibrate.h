@@ -9,10 +9,14 @@
  * the least-squares coefficients (Deville and Sarndal 1992; Glasserman 2003, 4.1.2: control variates as weights). Its scatter is that
  * of the residuals f - B'b.
  *
+ * A realisation far out can get a weight below nothing that way. The weights of raking, a_i exp(lambda'q_i) with lambda such that the means come out
+ * (Deville and Sarndal's multiplicative method), do not, and agree with the others to first order: fw_calibration_rake takes them instead.
+ *
  * Inside, B is made orthonormal with respect to a: q_0 = 1, sum a_i q_ij q_ik = delta_jk. Functions that depend on earlier ones are left out. */
 #ifndef FW_STATISTICS_CALIBRATE_H
 #define FW_STATISTICS_CALIBRATE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "floewear/status.h"
@@ -21,12 +25,15 @@ typedef struct fw_calibration {
     size_t  n, n_functions; /* the constant and those that are left */
     double *function;       /* (n x n_functions) orthonormal, row by row; owned */
     double *weight;         /* (n) sum to 1; a negative one is possible; owned */
+    double *known;          /* (n_functions) means of the orthonormal functions over the law; owned */
     double *alone;          /* (n) what the regression without a realisation misses it by, over its residual; owned */
     const double *plain;    /* (n) the a_i; borrowed */
 } fw_calibration;
 
 /* plain (n): more than 0, sums to 1; must outlive it. basis (n x p), without the constant. totals (p). FW_E_ARG: n = 0. */
 fw_status fw_calibration_make(fw_calibration *out, size_t n, const double *plain, size_t p, const double *basis, const double *totals, fw_msg *m);
+/* *is_done false: no positive weights give those means (a scenario law that reaches beyond all realisations), and the weights are as they were. */
+fw_status fw_calibration_rake(fw_calibration *c, bool *is_done, fw_msg *m);
 void      fw_calibration_free(fw_calibration *c);
 
 /* values (n) become what the regression on the functions of all others misses them by: leave-one-out residuals e / (1 - leverage). Plain residuals

@@ -23,7 +23,7 @@ static fw_status percentile_of(const fw_campaign *c, const double *bearing, size
     for (size_t i = 0; i < n && s == FW_OK; i++) s = fw_depth_add(&d, &records[picks ? picks[i] : i], m);
     *value = 0; /* nothing but failures in a sub-set */
     if (s == FW_OK && d.n > 0) {
-        s = fw_depth_settle(&d, NULL, m);
+        s = fw_depth_settle(&d, NULL, NULL, m);
         if (s == FW_OK) s = fw_window_make(&w, &d, 0, m);
         if (s == FW_OK) {
             *value = fw_window_percentile(&w, p);

@@ -77,7 +77,7 @@ static fw_status read_options(question *q, const fw_campaign *c, const fw_answer
     return choose_points(q, c, o, m);
 }
 
-/* Stream the records through, one in memory at a time. sanity: may be NULL. */
+/* Stream the records through, one in memory at a time. */
 static fw_status collect(fw_depth *d, fw_sanity *sanity, const fw_campaign *c, const fw_answer_source *source, fw_msg *m)
 {
     fw_record r;
@@ -86,10 +86,10 @@ static fw_status collect(fw_depth *d, fw_sanity *sanity, const fw_campaign *c, c
     for (uint64_t id = 0; id < source->n && s == FW_OK; id++) {
         s = source->read(source->self, id, &r, m);
         if (s == FW_OK) s = fw_depth_add(d, &r, m);
-        if (s == FW_OK && sanity) fw_sanity_add(sanity, &r, 1);
+        if (s == FW_OK) fw_sanity_add(sanity, &r, r.weight);
     }
     fw_record_free(&r);
-    return s == FW_OK && d->n > 0 ? fw_depth_settle(d, source->law.point ? &source->law : NULL, m) : s;
+    return s == FW_OK && d->n > 0 ? fw_depth_settle(d, source->law.point ? &source->law : NULL, sanity, m) : s;
 }
 
 static double choose_design_percentile(const fw_campaign *c, const question *q)
@@ -268,7 +268,7 @@ static fw_status check_sanity(fw_answer *a, const fw_campaign *c, const fw_depth
     for (size_t i = 0; i < a->n_swept; i++) {
         fw_sanity_row *row = &a->swept[i];
         row->point = a->points[i].point, row->bearing_deg = a->points[i].bearing_deg;
-        row->ratio = row->strip_mm > 0 ? a->points[i].mean_mm / row->strip_mm : NAN;
+        row->ratio = row->strip_mm > 0 ? d->scale.moment[1] * fw_depth_ring_mean(d, i, FW_DEPTH_RING_LOAD) / row->strip_mm : NAN; /* in the same scenarios */
     }
     return FW_OK;
 }
@@ -321,7 +321,7 @@ void fw_answer_free(fw_answer *a)
 /* ---- the stop rule's question
  * -------------------------------------------------------------------------------------- */
 
-static fw_status measure_width(const fw_campaign *c, const fw_depth *d, size_t point, point_width *out, fw_msg *m)
+static fw_status measure_width(const fw_campaign *c, const fw_depth *d, size_t point, point_width *out, double *vov, fw_msg *m)
 {
     fw_window w;
     FW_TRY(fw_window_make(&w, d, point, m));
@@ -330,32 +330,59 @@ static fw_status measure_width(const fw_campaign *c, const fw_depth *d, size_t p
     fw_interval v = is_mean ? fw_window_mean_interval(&w, c->precision.confidence)
                             : fw_window_interval(&w, p, c->precision.confidence);
     *out = width_of(is_mean ? w.moment[1] : fw_window_percentile(&w, p), v.low, v.high);
+    *vov = fw_window_vov(&w, is_mean ? NAN : p);
     fw_window_free(&w);
     return FW_OK;
 }
 
-fw_status fw_answer_half_width(const fw_campaign *c, const fw_answer_source *source, double *half_width,
-                               double *value_mm, size_t *governing, fw_msg *m)
+/* The points that precision is asked of. */
+static fw_status asked_points(const fw_campaign *c, double **bearings, size_t *n, fw_msg *m)
 {
-    fw_depth     d;
+    const fw_precision *p = &c->precision;
+    *n = p->n_points ? p->n_points : c->points.n;
+    FW_CHECK(*n > 0, m, FW_E_ARG, "the campaign has no measuring points");
+    FW_TRY(fw_alloc(bearings, *n, sizeof **bearings, "bearings of measuring points", m));
+    for (size_t i = 0; i < *n; i++) (*bearings)[i] = c->points.bearing[p->n_points ? p->points[i] - 1 : i];
+    return FW_OK;
+}
+
+static fw_status measure_reached(const fw_campaign *c, const fw_depth *d, fw_reached *out, fw_msg *m)
+{
     point_width *widths = NULL;
+    double      *vov = NULL;
     size_t       largest = 0;
-    double       value = NAN;
-    *half_width = INFINITY;
-    FW_CHECK(c->points.n > 0, m, FW_E_ARG, "the campaign has no measuring points");
-    FW_TRY(fw_depth_make(&d, c, 0, c->points.n, c->points.bearing, m));
-    fw_status s = collect(&d, NULL, c, source, m);
-    if (s == FW_OK && d.n > 0) { /* with nothing but failures the width stays infinite */
-        s = fw_alloc(&widths, d.n_points, sizeof *widths, "interval widths", m);
-        for (size_t i = 0; i < d.n_points && s == FW_OK; i++) s = measure_width(c, &d, i, &widths[i], m);
-        if (s == FW_OK) {
-            *half_width = worst_width(d.n_points, widths, &largest);
-            value = widths[largest].value;
-        }
+    fw_status    s = fw_alloc(&widths, d->n_points, sizeof *widths, "interval widths", m);
+    if (s == FW_OK) s = fw_alloc(&vov, d->n_points, sizeof *vov, "variances of variances", m);
+    for (size_t i = 0; i < d->n_points && s == FW_OK; i++) s = measure_width(c, d, i, &widths[i], &vov[i], m);
+    if (s == FW_OK) {
+        out->half_width = worst_width(d->n_points, widths, &largest);
+        out->value_mm = widths[largest].value;
+        out->point = c->precision.n_points ? c->precision.points[largest] : largest + 1;
+        out->vov = vov[largest];
+        out->most_vov = fmax(FW_ANSWER_MOST_VOV, 3 / (double)d->n_units);
+        out->is_enough = out->half_width <= c->precision.half_width && out->vov <= out->most_vov;
     }
-    if (value_mm) *value_mm = value;
-    if (governing) *governing = largest + 1;
     free(widths);
+    free(vov);
+    return s;
+}
+
+fw_status fw_answer_reached(const fw_campaign *c, const fw_answer_source *source, fw_reached *out, fw_msg *m)
+{
+    fw_depth  d;
+    fw_sanity strip;
+    double   *bearings = NULL;
+    size_t    n = 0;
+    *out = (fw_reached){.half_width = INFINITY, .value_mm = NAN, .vov = NAN, .point = 1};
+    memset(&d, 0, sizeof d);
+    memset(&strip, 0, sizeof strip);
+    fw_status s = asked_points(c, &bearings, &n, m);
+    if (s == FW_OK) s = fw_depth_make(&d, c, 0, n, bearings, m);
+    if (s == FW_OK) s = fw_sanity_begin(&strip, c, 0, m);
+    if (s == FW_OK) s = collect(&d, &strip, c, source, m);
+    if (s == FW_OK && d.n > 0) s = measure_reached(c, &d, out, m); /* with nothing but failures the width stays infinite */
+    fw_sanity_free(&strip);
     fw_depth_free(&d);
+    free(bearings);
     return s;
 }

@@ -94,11 +94,18 @@ fw_status fw_answer_make(fw_answer *out, const fw_campaign *c, const fw_answer_s
                          const fw_answer_options *o, fw_msg *m);
 void      fw_answer_free(fw_answer *a);
 
-/* The stop rule's question: half-width of the interval of the campaign's precision quantity, relative to its value, the
- * worst over the campaign's points; INFINITY when an end does not exist. A point below a tenth of the largest one is
- * measured against that tenth: the lee side, where a window's wear is nearly always 0, must not keep a campaign
- * running. value_mm and governing (from 1; both may be NULL) are those of the point with the largest value. */
-fw_status fw_answer_half_width(const fw_campaign *c, const fw_answer_source *source, double *half_width,
-                               double *value_mm, size_t *governing, fw_msg *m);
+/* The stop rule's question. */
+typedef struct fw_reached {
+    double half_width; /* of the interval of the campaign's precision quantity, relative to its value, the worst over the points that it is asked of;
+                        * INFINITY when an end does not exist. A point below a tenth of the largest one is measured against that tenth: the lee
+                        * side, where a window's wear is nearly always 0, must not keep a campaign running */
+    double value_mm; /* of the point with the largest value; */
+    size_t point;    /* that point, from 1 */
+    double vov;      /* relative variance of the variance that its interval is made from: a few rare windows must not decide that all is known */
+    double most_vov; /* with more of it nothing is enough: 0.1, or three times what normal shares of so few randomisations have */
+    bool   is_enough;
+} fw_reached;
+#define FW_ANSWER_MOST_VOV 0.1
+fw_status fw_answer_reached(const fw_campaign *c, const fw_answer_source *source, fw_reached *out, fw_msg *m);
 
 #endif

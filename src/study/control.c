@@ -7,19 +7,22 @@
 #include "base/memory.h"
 
 enum { FEWEST = 60, PER_FUNCTION = 15, MOST_KNOTS = 12, FEWEST_KNOTS = 4, HARMONICS = 2 };
-/* A weight that is calibrated below this part of itself says that there are too many functions for these scenarios. */
-static const double LEAST_WEIGHT = 0.1;
+/* Straight weights below this part of themselves are raked. A weight that grows beyond this says that there are too many functions for these scenarios. */
+static const double LEAST_WEIGHT = 0.2, MOST_WEIGHT = 5;
 
 /* Which functions, and where the knots are. */
 typedef struct functions {
     const fw_campaign *campaign;
     const fw_emulator *emulator;
     size_t             n_knots, n_own, n_harmonics; /* own: concentration and mix */
+    bool               has_load;
     double             knot[MOST_KNOTS];
     const double      *harmonic; /* (n_cells x 2 HARMONICS); NULL without a joint table */
 } functions;
 
-static size_t count(const functions *f) { return f->n_knots * (1 + 2 * f->n_harmonics) + f->n_own; }
+static size_t n_shapes(const functions *f) { return f->n_knots + (f->has_load ? 1 : 0); }
+
+static size_t count(const functions *f) { return n_shapes(f) * (1 + 2 * f->n_harmonics) + f->n_own; }
 
 /* 1 at its own knot, 0 at the others, straight between; constant beyond the outer ones. */
 static void hats(const functions *f, double x, double *values)
@@ -41,13 +44,15 @@ static void hats(const functions *f, double x, double *values)
 
 static void evaluate(const functions *f, const fw_scenario *s, double *values)
 {
-    double own[FW_EMULATOR_FUNCTIONS];
-    size_t at = f->n_knots;
-    hats(f, fw_emulator_ln_load(f->emulator, s), values);
+    size_t n = n_shapes(f), at = n;
+    double ln_load = fw_emulator_ln_load(f->emulator, s);
+    hats(f, ln_load, values);
+    if (f->has_load) values[f->n_knots] = exp(ln_load - f->knot[f->n_knots - 1]);
     for (size_t h = 0; h < 2 * f->n_harmonics; h++)
-        for (size_t j = 0; j < f->n_knots; j++) values[at++] = values[j] * f->harmonic[s->cell * 2 * HARMONICS + h];
-    fw_emulator_functions(f->campaign, s, own);
-    for (size_t k = 0; k < f->n_own; k++) values[at++] = own[k == 0 ? 2 : 5 + k]; /* ln C, then the mixes (emulator.c) */
+        for (size_t j = 0; j < n; j++) values[at++] = values[j] * f->harmonic[s->cell * 2 * HARMONICS + h];
+    double ln_c = log(fmax(s->concentration, 1e-6));
+    if (f->n_own) values[at++] = ln_c;
+    for (uint32_t k = 1; k < f->campaign->model.n_mixes && f->n_own; k++) values[at++] = s->mix == k, values[at++] = s->mix == k ? ln_c : 0;
 }
 
 /* Mean cosine and sine of j times the direction in a cell. */
@@ -107,6 +112,23 @@ static void place_knots(functions *f, size_t n_knots, size_t n_law, const law_po
 
 /* ---- the weights ------------------------------------------------------------------------------------------------- */
 
+static void take_range(fw_control *x)
+{
+    x->least = INFINITY, x->most = 0;
+    for (size_t i = 0; i < x->calibration.n; i++) {
+        double ratio = x->calibration.weight[i] / x->calibration.plain[i];
+        x->least = fmin(x->least, ratio), x->most = fmax(x->most, ratio);
+    }
+}
+
+static fw_status rake(fw_control *x, fw_msg *m)
+{
+    bool is_done = false;
+    FW_TRY(fw_calibration_rake(&x->calibration, &is_done, m));
+    if (is_done) take_range(x);
+    return FW_OK;
+}
+
 static fw_status calibrate(fw_control *x, const functions *f, size_t n_law, const law_point *law, size_t n, const fw_scenario *scenarios,
                            const double *plain, fw_msg *m)
 {
@@ -121,29 +143,27 @@ static fw_status calibrate(fw_control *x, const functions *f, size_t n_law, cons
     }
     for (size_t i = 0; i < n && s == FW_OK; i++) evaluate(f, &scenarios[i], basis + i * p);
     if (s == FW_OK) s = fw_calibration_make(&x->calibration, n, plain, p, basis, totals, m);
-    x->least = INFINITY, x->most = 0;
-    for (size_t i = 0; i < n && s == FW_OK; i++) {
-        double ratio = x->calibration.weight[i] / plain[i];
-        x->least = fmin(x->least, ratio), x->most = fmax(x->most, ratio);
-    }
+    if (s == FW_OK) take_range(x);
+    if (s == FW_OK && x->least < LEAST_WEIGHT) s = rake(x, m);
     free(basis);
     free(totals);
     free(values);
     return s;
 }
 
-/* How many knots and other functions n realisations have room for, fewer at every further attempt. False: none. */
+/* What n realisations have room for, and less at every further attempt: without the load itself, which few windows of the fastest scenarios hold; then
+ * without what is beside the knots; then with fewer knots. False: nothing is left. */
 static bool choose(functions *f, const fw_campaign *c, size_t n, size_t attempt, size_t *n_knots)
 {
-    size_t room = n / PER_FUNCTION;
-    f->n_harmonics = c->site.n_cells == 0 ? 0 : room >= 5 * 8 ? 2 : room >= 3 * FEWEST_KNOTS ? 1 : 0;
+    size_t room = n / PER_FUNCTION, fewer = attempt > 2 ? 2 * (attempt - 2) : 0;
+    f->has_load = attempt == 0;
+    f->n_harmonics = c->site.n_cells == 0 || attempt > 2 ? 0 : room >= 5 * 8 ? 2 : room >= 3 * FEWEST_KNOTS ? 1 : 0;
     f->n_own = 1 + 2 * (c->model.n_mixes - 1);
-    if (c->site.n_cells || room < f->n_own + 6) f->n_own = 0;
-    *n_knots = (room - f->n_own) / (1 + 2 * f->n_harmonics);
-    *n_knots = *n_knots > MOST_KNOTS ? MOST_KNOTS : *n_knots;
-    if (attempt > 0) f->n_own = 0, f->n_harmonics = attempt > 1 ? 0 : f->n_harmonics;
-    if (*n_knots < FEWEST_KNOTS + 2 * attempt) return false;
-    *n_knots -= 2 * attempt;
+    if (c->site.n_cells || room < f->n_own + 7 || attempt > 1) f->n_own = 0;
+    size_t shapes = (room - f->n_own) / (1 + 2 * f->n_harmonics);
+    *n_knots = shapes > MOST_KNOTS + 1 ? MOST_KNOTS : shapes > 0 ? shapes - 1 : 0;
+    if (*n_knots < FEWEST_KNOTS + fewer) return false;
+    *n_knots -= fewer;
     return true;
 }
 
@@ -162,19 +182,20 @@ static fw_status switch_on(fw_control *x, const fw_campaign *c, const fw_scenari
         if (f.n_knots < 2) break; /* all scenarios wear alike */
         fw_calibration_free(&x->calibration);
         s = calibrate(x, &f, (size_t)law->n, points, n, scenarios, plain, m);
-        x->is_on = x->least >= LEAST_WEIGHT;
+        x->is_on = x->least > 0 && x->most < MOST_WEIGHT;
+        x->has_load = x->is_on && f.has_load;
     }
     free(points);
     free(harmonic);
     return s;
 }
 
-fw_status fw_control_make(fw_control *out, const fw_campaign *c, const fw_scenario_law *law, size_t n, const fw_scenario *scenarios,
+fw_status fw_control_make(fw_control *out, const fw_campaign *c, const fw_scenario_law *law, const fw_sanity *strip, size_t n, const fw_scenario *scenarios,
                           const double *ring_load, const double *plain, fw_msg *m)
 {
     memset(out, 0, sizeof *out);
-    fw_status s = fw_emulator_fit(&out->emulator, c, n, scenarios, ring_load, m);
-    if (s == FW_OK && law && law->point && law->n > 1 && n >= FEWEST && out->emulator.n_functions > 0)
+    fw_status s = fw_emulator_fit(&out->emulator, c, strip, n, scenarios, ring_load, m);
+    if (s == FW_OK && law && law->n > 1 && n >= FEWEST && out->emulator.n_functions > 0)
         s = switch_on(out, c, law, n, scenarios, plain, m);
     if (s == FW_OK && !out->is_on) {
         fw_calibration_free(&out->calibration);

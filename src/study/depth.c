@@ -173,7 +173,7 @@ static fw_status find_units(fw_depth *d, fw_msg *m)
     return FW_OK;
 }
 
-static fw_status weigh(fw_depth *d, const fw_scenario_law *law, fw_msg *m)
+static fw_status weigh(fw_depth *d, const fw_scenario_law *law, const fw_sanity *strip, fw_msg *m)
 {
     fw_scenario *scenarios = NULL;
     double      *load = NULL, sum = 0;
@@ -183,18 +183,18 @@ static fw_status weigh(fw_depth *d, const fw_scenario_law *law, fw_msg *m)
     fw_status s = fw_alloc(&scenarios, d->n, sizeof *scenarios, "scenarios of records", m);
     if (s == FW_OK) s = fw_alloc(&load, d->n, sizeof *load, "loads of records", m);
     for (size_t i = 0; i < d->n && s == FW_OK; i++) scenarios[i] = d->row[i].scenario, load[i] = d->row[i].ring_load;
-    if (s == FW_OK) s = fw_control_make(&d->control, d->campaign, law, d->n, scenarios, load, d->plain, m);
+    if (s == FW_OK) s = fw_control_make(&d->control, d->campaign, law, strip, d->n, scenarios, load, d->plain, m);
     free(scenarios);
     free(load);
     return s;
 }
 
-fw_status fw_depth_settle(fw_depth *d, const fw_scenario_law *law, fw_msg *m)
+fw_status fw_depth_settle(fw_depth *d, const fw_scenario_law *law, const fw_sanity *strip, fw_msg *m)
 {
     FW_CHECK(d->n > 0, m, FW_E_FAILURES, "no realisation succeeded (%zu failed): there is nothing to answer from",
              d->n_failed);
     FW_TRY(find_units(d, m));
-    FW_TRY(weigh(d, law, m));
+    FW_TRY(weigh(d, law, strip, m));
     FW_TRY(fw_alloc(&d->scratch, 2 * d->n, sizeof *d->scratch, "values of records", m));
     d->units = (fw_units){.n = d->n,
                           .weight = d->control.calibration.weight,

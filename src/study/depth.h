@@ -73,8 +73,8 @@ enum { FW_DEPTH_RING_LOAD, FW_DEPTH_RING_IMPACT, FW_DEPTH_RING_HIGH, FW_DEPTH_RI
 fw_status fw_depth_make(fw_depth *out, const fw_campaign *c, size_t law, size_t n_points, const double *bearings,
                         fw_msg *m);
 fw_status fw_depth_add(fw_depth *d, const fw_record *r, fw_msg *m);
-/* After the last record: weights. scenarios NULL: no control variates. FW_E_FAILURES when no realisation succeeded. */
-fw_status fw_depth_settle(fw_depth *d, const fw_scenario_law *scenarios, fw_msg *m);
+/* After the last record: weights. scenarios NULL: no control variates. strip: NULL, or helps them. FW_E_FAILURES when no realisation succeeded. */
+fw_status fw_depth_settle(fw_depth *d, const fw_scenario_law *scenarios, const fw_sanity *strip, fw_msg *m);
 void      fw_depth_free(fw_depth *d);
 /* Mean over records of a point's direction mean of one of the rings. */
 double    fw_depth_ring_mean(const fw_depth *d, size_t point, int ring);
@@ -95,6 +95,8 @@ void        fw_window_free(fw_window *w);
 double      fw_window_percentile(const fw_window *w, double p);                  /* p in (0, 1); [mm] */
 fw_interval fw_window_interval(const fw_window *w, double p, double confidence); /* [mm] */
 const char *fw_window_method(const fw_window *w);                                /* of that interval */
+/* Relative variance of the variance (statistics/spread.h) that the interval of percentile p, or with NAN of the mean, is made from; 0 for order statistics. */
+double      fw_window_vov(const fw_window *w, double p);
 fw_interval fw_window_mean_interval(const fw_window *w, double confidence);      /* [mm] */
 /* The central value if the failed ones were all 0 (low) or all infinite (high; INFINITY when it is one of them). */
 void        fw_window_failure_ends(const fw_window *w, double p, double *low, double *high);

@@ -9,12 +9,18 @@
 
 enum { FEWEST_WINDOWS = 12, WINDOWS_PER_FUNCTION = 4, FOLDS = 10 };
 
-size_t fw_emulator_functions(const fw_campaign *c, const fw_scenario *s, double *values)
+/* Functions of a scenario in the order in which they are taken: few windows have room for the first ones alone. Returns their number. */
+static size_t functions_of(const fw_campaign *c, const fw_sanity *strip, const fw_scenario *s, double *values)
 {
     double u = log(fmax(s->speed, FW_SLOWEST)), i = log(fmax(s->concentration, 1e-6));
     size_t n = 0;
-    values[n++] = 1, values[n++] = u, values[n++] = i;
-    values[n++] = u * u, values[n++] = u * i, values[n++] = i * i;
+    values[n++] = 1;
+    if (strip) values[n++] = fmax(fw_sanity_ln_strip(strip, s), -700);
+    if (strip) values[n++] = i, values[n++] = i * i;
+    values[n++] = u;
+    if (!strip) values[n++] = i;
+    values[n++] = u * u, values[n++] = u * i;
+    if (!strip) values[n++] = i * i;
     for (uint32_t k = 1; k < c->model.n_mixes; k++) values[n++] = s->mix == k;
     for (uint32_t k = 1; k < c->model.n_mixes; k++) values[n++] = s->mix == k ? i : 0;
     if (c->model.effects & FW_EFFECT_WIND) {
@@ -32,13 +38,13 @@ typedef struct table {
     double *ln_load;   /* (n); owned */
 } table;
 
-static fw_status make_table(table *t, const fw_campaign *c, size_t n, const fw_scenario *scenarios, const double *load, fw_msg *m)
+static fw_status make_table(table *t, const fw_emulator *e, size_t n, const fw_scenario *scenarios, const double *load, fw_msg *m)
 {
     FW_TRY(fw_alloc(&t->functions, n * FW_EMULATOR_FUNCTIONS, sizeof *t->functions, "functions of scenarios", m));
     FW_TRY(fw_alloc(&t->ln_load, n, sizeof *t->ln_load, "logarithms of loads", m));
     for (size_t i = 0; i < n; i++) {
         if (!(load[i] > 0)) continue;
-        t->n_functions = fw_emulator_functions(c, &scenarios[i], t->functions + t->n * FW_EMULATOR_FUNCTIONS);
+        t->n_functions = functions_of(e->campaign, e->strip, &scenarios[i], t->functions + t->n * FW_EMULATOR_FUNCTIONS);
         t->ln_load[t->n++] = log(load[i]);
     }
     return FW_OK;
@@ -104,12 +110,13 @@ static double scatter_of(const table *t)
     return sqrt(squares / ((double)t->n - 1));
 }
 
-fw_status fw_emulator_fit(fw_emulator *out, const fw_campaign *c, size_t n, const fw_scenario *scenarios, const double *load, fw_msg *m)
+fw_status fw_emulator_fit(fw_emulator *out, const fw_campaign *c, const fw_sanity *strip, size_t n, const fw_scenario *scenarios,
+                          const double *load, fw_msg *m)
 {
     table t = {0};
-    *out = (fw_emulator){.campaign = c, .scatter = NAN, .held_out = NAN, .dry_share = 1};
+    *out = (fw_emulator){.campaign = c, .strip = strip && !strip->why[0] ? strip : NULL, .scatter = NAN, .held_out = NAN, .dry_share = 1};
     if (n == 0) return FW_OK;
-    fw_status s = make_table(&t, c, n, scenarios, load, m);
+    fw_status s = make_table(&t, out, n, scenarios, load, m);
     out->dry_share = 1 - (double)t.n / (double)n;
     if (s == FW_OK && t.n >= FEWEST_WINDOWS) {
         size_t most = t.n / WINDOWS_PER_FUNCTION;
@@ -127,6 +134,6 @@ fw_status fw_emulator_fit(fw_emulator *out, const fw_campaign *c, size_t n, cons
 double fw_emulator_ln_load(const fw_emulator *e, const fw_scenario *s)
 {
     double functions[FW_EMULATOR_FUNCTIONS];
-    fw_emulator_functions(e->campaign, s, functions);
+    functions_of(e->campaign, e->strip, s, functions);
     return predict(e->n_functions, e->coefficient, functions);
 }

@@ -67,6 +67,12 @@ static double add(const fw_sanity *s, double *shares, size_t law, const fw_scena
     return weight * (a.share[0] * s->total[a.row] + a.share[1] * s->total[a.row + 1]);
 }
 
+double fw_sanity_ln_strip(const fw_sanity *s, const fw_scenario *sc)
+{
+    fw_swept_share a = fw_swept_share_of(&s->swept, sc);
+    return log(a.share[0] * s->total[a.row] + a.share[1] * s->total[a.row + 1]);
+}
+
 void fw_sanity_add(fw_sanity *s, const fw_record *r, double weight)
 {
     if (s->why[0] || r->status != FW_OK || !(r->mix >= 0 && r->mix < (double)s->swept.n_mixes)) return;

@@ -47,6 +47,8 @@ void      fw_sanity_add(fw_sanity *s, const fw_record *r, double weight);
 /* factor: mean of the rate [mm per MPa^m km]; rows: (d->n_points), strip_mm and law_mm are filled. */
 fw_status fw_sanity_end(const fw_sanity *s, const fw_campaign *c, const fw_directions *d, double factor, fw_sanity_row *rows, fw_sanity_ring *ring,
                         fw_msg *m);
+/* ln of the strip's load of a scenario, summed over the ring; -INFINITY: none. Not after why is set. */
+double    fw_sanity_ln_strip(const fw_sanity *s, const fw_scenario *sc);
 void      fw_sanity_free(fw_sanity *s);
 
 #endif

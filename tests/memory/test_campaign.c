@@ -33,8 +33,8 @@ static fw_status look(void *self, uint64_t n, bool *is_enough, fw_msg *m)
 {
     session         *s = self;
     fw_answer_source source = fw_run_files_answer(&s->files, n);
-    double           half_width;
-    FW_TRY(fw_answer_half_width(&s->campaign, &source, &half_width, NULL, NULL, m));
+    fw_reached       reached;
+    FW_TRY(fw_answer_reached(&s->campaign, &source, &reached, m));
     *is_enough = false;
     return FW_OK;
 }

@@ -14,8 +14,7 @@ typedef struct asking {
     made_up          records;
     fw_answer_source source;
     fw_answer        answer;
-    double           half_width, value;
-    size_t           point;
+    fw_reached       reached;
 } asking;
 
 static uint64_t hash_answer(const fw_answer *a)
@@ -50,14 +49,14 @@ static uint64_t end_answer(void *self, fw_status status)
 static fw_status ask_half_width(void *self, fw_msg *m)
 {
     asking *q = self;
-    return fw_answer_half_width(&q->campaign, &q->source, &q->half_width, &q->value, &q->point, m);
+    return fw_answer_reached(&q->campaign, &q->source, &q->reached, m);
 }
 
 static uint64_t end_half_width(void *self, fw_status status)
 {
     asking *q = self;
-    double  all[] = {q->half_width, q->value, (double)q->point};
-    if (status != FW_OK) assert_true(q->half_width == INFINITY); /* never taken for enough */
+    double  all[] = {q->reached.half_width, q->reached.value_mm, (double)q->reached.point};
+    if (status != FW_OK) assert_true(q->reached.half_width == INFINITY); /* never taken for enough */
     return status == FW_OK ? inject_hash(0, all, sizeof all) : 0;
 }
 

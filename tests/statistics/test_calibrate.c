@@ -62,6 +62,45 @@ static void means_of_the_functions_are_the_laws(void **state)
     }
 }
 
+/* Raked weights are positive, have the same means, and are near the straight ones where those are near the plain. */
+static void raking(void **state)
+{
+    (void)state;
+    rig   *r = malloc(sizeof *r);
+    double straight[N], mean[P] = {0}, sum = 0;
+    bool   is_done = false;
+    make(r, 5, true);
+    memcpy(straight, r->c.weight, sizeof straight);
+    assert_int_equal(fw_calibration_rake(&r->c, &is_done, NULL), FW_OK);
+    assert_true(is_done);
+    for (size_t i = 0; i < N; i++) {
+        assert_true(r->c.weight[i] > 0);
+        assert_true(fabs(r->c.weight[i] - straight[i]) < 0.1 * r->plain[i]);
+        sum += r->c.weight[i];
+        for (size_t k = 0; k < P; k++) mean[k] += r->c.weight[i] * r->basis[i * P + k];
+    }
+    assert_near(sum, 1, 1e-10);
+    for (size_t k = 0; k < P; k++) assert_near(mean[k], TOTALS[k], 1e-9);
+    fw_calibration_free(&r->c);
+    free(r);
+    /* a law far from the sample: straight weights fall below nothing, raked ones do not; a law beyond it has none */
+    double x[20], plain[20], near_end = 0.93, beyond = 1.2, least = 1, raked_least = 1, got = 0;
+    for (size_t i = 0; i < 20; i++) x[i] = ((double)i + 0.5) / 20, plain[i] = 0.05;
+    fw_calibration c;
+    assert_int_equal(fw_calibration_make(&c, 20, plain, 1, x, &near_end, NULL), FW_OK);
+    for (size_t i = 0; i < 20; i++) least = fmin(least, c.weight[i]);
+    assert_int_equal(fw_calibration_rake(&c, &is_done, NULL), FW_OK);
+    for (size_t i = 0; i < 20; i++) raked_least = fmin(raked_least, c.weight[i]), got += c.weight[i] * x[i];
+    assert_true(is_done && least < 0 && raked_least > 0);
+    assert_near(got, 0.93, 1e-9);
+    fw_calibration_free(&c);
+    assert_int_equal(fw_calibration_make(&c, 20, plain, 1, x, &beyond, NULL), FW_OK);
+    memcpy(straight, c.weight, 20 * sizeof *straight);
+    assert_int_equal(fw_calibration_rake(&c, &is_done, NULL), FW_OK);
+    assert_true(!is_done && memcmp(straight, c.weight, 20 * sizeof *straight) == 0);
+    fw_calibration_free(&c);
+}
+
 /* What lies in the functions' span has its exact mean, 3 + 2/2 - 5/3 + 7/2, whatever was drawn, and no residual. */
 static void the_span_is_exact(void **state)
 {
@@ -171,6 +210,7 @@ static void nothing_to_weigh_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(means_of_the_functions_are_the_laws),
+                                       cmocka_unit_test(raking),
                                        cmocka_unit_test(the_span_is_exact),
                                        cmocka_unit_test(one_function_is_the_textbooks_control_variate),
                                        cmocka_unit_test(no_function_is_plain_sampling),

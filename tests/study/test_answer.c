@@ -232,12 +232,12 @@ static void options_choose_points_and_percentiles(void **state)
 static void failed_runs_are_counted_at_both_ends(void **state)
 {
     (void)state;
-    double           bearings[24], half, value;
+    double           bearings[24];
     fw_campaign      c = made_up_campaign(bearings);
     made_up          clean = {.campaign = &c, .sigma = 1}, holed = {.campaign = &c, .sigma = 1, .fail_every = 20};
     fw_answer        a, b;
     fw_msg           m;
-    size_t           governing;
+    fw_reached       r;
     fw_answer_source source = made_up_source(&clean, 400), with_failures = made_up_source(&holed, 400);
     assert_int_equal(fw_answer_make(&a, &c, &source, NULL, NULL), FW_OK);
     assert_int_equal(fw_answer_make(&b, &c, &with_failures, NULL, NULL), FW_OK);
@@ -252,30 +252,31 @@ static void failed_runs_are_counted_at_both_ends(void **state)
 
     holed.fail_every = 1; /* nothing but failures */
     assert_int_equal(fw_answer_make(&b, &c, &with_failures, NULL, &m), FW_E_FAILURES);
-    assert_int_equal(fw_answer_half_width(&c, &with_failures, &half, &value, &governing, &m), FW_OK);
-    assert_true(half == INFINITY && isnan(value));
+    assert_int_equal(fw_answer_reached(&c, &with_failures, &r, &m), FW_OK);
+    assert_true(r.half_width == INFINITY && isnan(r.value_mm) && !r.is_enough);
     with_failures.n = 0;
-    assert_int_equal(fw_answer_half_width(&c, &with_failures, &half, NULL, NULL, &m), FW_OK);
-    assert_true(half == INFINITY);
+    assert_int_equal(fw_answer_reached(&c, &with_failures, &r, &m), FW_OK);
+    assert_true(r.half_width == INFINITY && !r.is_enough);
     assert_int_equal(fw_answer_make(&b, &c, &with_failures, NULL, &m), FW_E_FAILURES);
 }
 
 static void the_stop_rule_asks_for_what_the_answer_says(void **state)
 {
     (void)state;
-    double           bearings[24], half, value, half4;
-    size_t           governing;
+    double           bearings[24], half;
+    fw_reached       r;
     fw_campaign      c = made_up_campaign(bearings);
     made_up          s = {.campaign = &c, .sigma = 1};
     fw_answer        a;
     fw_answer_source source = made_up_source(&s, 400);
     c.site.temperature = made_up_law(FW_DIST_UNIFORM, -12, -2);
     assert_int_equal(fw_answer_make(&a, &c, &source, NULL, NULL), FW_OK);
-    assert_int_equal(fw_answer_half_width(&c, &source, &half, &value, &governing, NULL), FW_OK);
+    assert_int_equal(fw_answer_reached(&c, &source, &r, NULL), FW_OK);
+    half = r.half_width;
     CHECK_NEAR(half, a.half_width, 0);
-    assert_int_equal(governing, 13);
+    assert_int_equal(r.point, 13);
     const fw_percentile_row *row = row_of(&a, 13, 90);
-    CHECK_NEAR(value, row->depth_mm, 0);
+    CHECK_NEAR(r.value_mm, row->depth_mm, 0);
     double own = (row->high_mm - row->low_mm) / (2 * row->depth_mm);
     assert_true(half >= own);
     CHECK_RELATIVE(ledger_of(&a, "sampling")->amount, own, 1e-12);
@@ -283,15 +284,15 @@ static void the_stop_rule_asks_for_what_the_answer_says(void **state)
     assert_true(isnan(ledger_of(&a, "life: independent windows")->amount));
     fw_answer_free(&a);
     source.n = 1600; /* the half-width shrinks with 1/sqrt(n) */
-    assert_int_equal(fw_answer_half_width(&c, &source, &half4, NULL, NULL, NULL), FW_OK);
-    assert_true(half4 > 0.35 * half && half4 < 0.7 * half);
+    assert_int_equal(fw_answer_reached(&c, &source, &r, NULL), FW_OK);
+    assert_true(r.half_width > 0.35 * half && r.half_width < 0.7 * half);
     source.n = 10;
-    assert_int_equal(fw_answer_half_width(&c, &source, &half, NULL, NULL, NULL), FW_OK);
-    assert_true(half == INFINITY);
+    assert_int_equal(fw_answer_reached(&c, &source, &r, NULL), FW_OK);
+    assert_true(r.half_width == INFINITY);
     c.precision.quantity = FW_QUANTITY_MEAN;
     source.n = 400;
-    assert_int_equal(fw_answer_half_width(&c, &source, &half, &value, NULL, NULL), FW_OK);
-    assert_true(half > 0.05 && half < 0.3); /* CV 1.3 to 1.7 over sqrt(400), times 1.96, and skewness */
+    assert_int_equal(fw_answer_reached(&c, &source, &r, NULL), FW_OK);
+    assert_true(r.half_width > 0.05 && r.half_width < 0.3); /* CV 1.3 to 1.7 over sqrt(400), times 1.96, and skewness */
 }
 
 static void a_life_is_a_sum_of_windows(void **state)
@@ -381,7 +382,7 @@ static fw_status read_zeros(void *self, uint64_t id, fw_record *r, fw_msg *m)
 static void no_wear_at_all(void **state)
 {
     (void)state;
-    double           bearings[24], half;
+    double           bearings[24];
     fw_campaign      c = made_up_campaign(bearings);
     made_up          s = {.campaign = &c, .sigma = 1};
     fw_answer        a;
@@ -392,8 +393,9 @@ static void no_wear_at_all(void **state)
         assert_true(row_of(&a, 13, 90)->depth_mm == 0 && a.points[12].mean_mm == 0 && isnan(a.points[12].impact_share));
         assert_true(a.life[0].depth_mm == 0 && isnan(a.life[0].allowance_year));
         fw_answer_free(&a);
-        assert_int_equal(fw_answer_half_width(&c, &source, &half, NULL, NULL, NULL), FW_OK);
-        assert_true(half == INFINITY);
+        fw_reached r;
+        assert_int_equal(fw_answer_reached(&c, &source, &r, NULL), FW_OK);
+        assert_true(r.half_width == INFINITY);
     }
 }
 

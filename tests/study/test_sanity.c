@@ -34,7 +34,7 @@ static fw_status read_strip(void *self, uint64_t id, fw_record *r, fw_msg *m)
     strip_records *s = self;
     fw_scenario    sc = scenario(id);
     memset(r->rings, 0, fw_record_n_rings(r->n_arcs, r->n_laws) * sizeof *r->rings);
-    r->id = id, r->status = id == 3 ? FW_E_NUMERIC : FW_OK;
+    r->id = id, r->status = id == 3 ? FW_E_NUMERIC : FW_OK, r->weight = 1, r->randomisation = -1;
     r->concentration = sc.concentration, r->speed = sc.speed, r->mix = sc.mix;
     if (r->status != FW_OK) return FW_OK;
     fw_swept_ring(&s->strip, &sc, r->rings + r->n_arcs, NULL);
