@@ -3,8 +3,8 @@
 
 usage: figures.py RESULTS.h5 [-o FOLDER] [--points 1,6] [--formats svg,png]
 
-Writes NAME-polar and NAME-exceedance (NAME: the results file's), or of NAME.accuracy.h5 NAME-work-precision and NAME-budget, beside
-the file or into FOLDER, and prints their paths. Needs Debian's python3-h5py and python3-matplotlib. The same results file gives the same bytes of SVG.
+Writes NAME-polar, NAME-exceedance and, of a service life, NAME-life-fan and NAME-life-map (NAME: the results file's), or of
+NAME.accuracy.h5 NAME-work-precision and NAME-budget, beside the file or into FOLDER, and prints their paths. Needs Debian's python3-h5py and python3-matplotlib. The same results file gives the same bytes of SVG.
 """
 import argparse
 import pathlib
@@ -17,6 +17,7 @@ matplotlib.use("Agg")
 
 import accuracy  # noqa: E402  (the backend is chosen before pyplot is loaded)
 import exceedance  # noqa: E402
+import life  # noqa: E402
 import polar  # noqa: E402
 from results import Results  # noqa: E402
 from style import apply_style  # noqa: E402
@@ -44,7 +45,12 @@ def save(figure, folder, stem, formats):
 def campaign_figures(options):
     results = Results(options.results)
     points = [int(p) for p in options.points.split(",")] if options.points else None
-    return ("polar", polar.draw(results)), ("exceedance", exceedance.draw(results, points))
+    figures = [("polar", polar.draw(results)), ("exceedance", exceedance.draw(results, points))]
+    if life.has_fan(results):
+        figures.append(("life-fan", life.draw_fan(results)))
+    if life.has_map(results):
+        figures.append(("life-map", life.draw_map(results)))
+    return figures
 
 
 def accuracy_figures(options):

@@ -15,6 +15,7 @@ class Results:
                   law, a joint table, or without PyYAML: the figures then show no arrows
     temperatures  (smallest, largest) |T| [K] of a constant or uniform law, else None
     law           name of the first abrasion law
+    life          {"service_life", "life_points", "life_fan", "allowance_year", "life_map"}: tables like the two above, those that the file has
     load          its wear load (realisations x arcs), arc k facing [k, k+1) 360/arcs degrees clockwise of the current
     """
 
@@ -37,6 +38,8 @@ class Results:
             self.directions = _directions(_law(campaign, sets, "current", "direction"))
             self.temperatures = _temperatures(_law(campaign, sets, "ice", "temperature"))
             load = file["realisations/wear_load"]
+            tables = ("service_life", "life_points", "life_fan", "allowance_year", "life_map")
+            self.life = {name: read_table(file[name]) for name in tables if name in file}
             self.law = read_text(np.atleast_1d(load.attrs["laws"])[0])
             self.load = load[:, 0, :]
             if not self.percentiles["point"].size:

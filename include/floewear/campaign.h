@@ -27,10 +27,20 @@ typedef struct fw_precision {
     double budget_s; /* wall-clock budget of one call, 0: none (from --time-budget, not part of the hash) */
 } fw_precision;
 
+/* One whole year of a site's record. */
+typedef struct fw_service_year {
+    double ice_hours; /* [h] */
+    double factor;    /* on the depth of its windows, 1 when the table says nothing */
+} fw_service_year;
+
 typedef struct fw_service {
     bool   is_asked;
-    double life_years, ice_hours_per_year, year_to_year_cv, persistence;
-    double allowance; /* [mm], 0: none */
+    double life_years, ice_hours_per_year; /* with a table its mean */
+    double year_to_year_cv;                /* of a lognormal factor of mean 1; 0 with a table */
+    double persistence;                    /* correlation of the normal scores of neighbouring windows' depths */
+    double allowance;                      /* [mm], 0: none */
+    size_t n_table;                        /* 0: no table of years */
+    fw_service_year *table;                /* (n_table), owned */
 } fw_service;
 
 /* How scenarios are drawn. The designs but plain come in randomisations that are independent of each other: realisation id is point
@@ -54,9 +64,11 @@ typedef struct fw_sampling {
 
 /* What acts on a campaign's answers after the run; not part of the hash. */
 typedef struct fw_after {
-    bool            has_water_level, has_law_scatter;
-    fw_distribution water_level; /* above the mean level [m] */
-    fw_distribution law_scatter; /* factor on the law's rate [-] */
+    bool            has_water_level, has_law_scatter, has_law_coefficient, has_law_exponent;
+    fw_distribution water_level;     /* above the mean level [m] */
+    fw_distribution law_scatter;     /* factor on the law's rate [-] */
+    fw_distribution law_coefficient; /* factor on the first law's coefficient, as far as it is not known [-] */
+    fw_distribution law_exponent;    /* the first law's exponent, as far as it is not known [-] */
 } fw_after;
 
 typedef struct fw_campaign {

@@ -18,5 +18,8 @@ void fw_campaign_free(fw_campaign *c)
     free(c->model.tide.rows);
     fw_distribution_free(&c->after.water_level);
     fw_distribution_free(&c->after.law_scatter);
+    fw_distribution_free(&c->after.law_coefficient);
+    fw_distribution_free(&c->after.law_exponent);
+    free(c->service.table);
     memset(c, 0, sizeof *c);
 }

@@ -1,4 +1,4 @@
-/* Keys of what acts on a campaign's answers after the run: water.level, abrasion.scatter. */
+/* Keys of what acts on a campaign's answers after the run: water.level, abrasion.scatter, abrasion.uncertainty. */
 #ifndef FW_CLI_AFTER_FILE_H
 #define FW_CLI_AFTER_FILE_H
 

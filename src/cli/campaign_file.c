@@ -12,6 +12,7 @@
 #include "cli/effects_file.h"
 #include "cli/model_file.h"
 #include "cli/sampling_file.h"
+#include "cli/service_file.h"
 #include "cli/settings.h"
 #include "cli/site_table.h"
 #include "field/sizes.h"
@@ -198,34 +199,6 @@ static fw_status read_site(const fw_reader *r, const fw_node *ice, const fw_node
     return FW_OK;
 }
 
-/* ---- service -------------------------------------------------------------------------------------- */
-
-static fw_status note_not_applied(fw_campaign *c, const char *key, double value, fw_msg *m)
-{
-    size_t capacity = c->n_not_applied;
-
-    FW_TRY(fw_grow(&c->not_applied, &capacity, c->n_not_applied + 1, sizeof *c->not_applied, "keys not applied", m));
-    snprintf(c->not_applied[c->n_not_applied++], sizeof *c->not_applied,
-             "%s = %g (windows and years are independent here)", key, value);
-    return FW_OK;
-}
-
-static fw_status read_service(const fw_reader *r, fw_values *v, fw_campaign *c)
-{
-    const fw_node *map = fw_yaml_get(r->root, "service");
-
-    if (!map) return FW_OK;
-    FW_TRY(fw_read_section(r, &fw_table_service, "service", map, v, NULL));
-    c->service = (fw_service){.is_asked = true,
-                              .life_years = v->life,
-                              .ice_hours_per_year = v->ice_hours_per_year,
-                              .year_to_year_cv = v->year_to_year_cv,
-                              .persistence = v->persistence,
-                              .allowance = v->allowance};
-    if (v->year_to_year_cv > 0) FW_TRY(note_not_applied(c, "service.year_to_year_cv", v->year_to_year_cv, r->m));
-    if (v->persistence > 0) FW_TRY(note_not_applied(c, "service.persistence", v->persistence, r->m));
-    return FW_OK;
-}
 
 /* ---- numerics --------------------------------------------------------------------------------------------------- */
 
@@ -294,7 +267,7 @@ static fw_status read_campaign(const fw_reader *r, const char *file, int64_t see
     FW_TRY(settle_effects(r, c));
     FW_TRY(fw_file_read_sampling(r, &v, &c->model, &c->site, &c->sampling));
     FW_TRY(fw_file_read_precision(r, &v, c->points.n, &c->precision));
-    FW_TRY(read_service(r, &v, c));
+    FW_TRY(fw_file_read_service(r, &v, c->model.window, &c->service));
     FW_TRY(fw_file_read_after(r, &c->model, &c->after));
     fw_status status = fw_model_check(&c->model, r->m);
     if (status != FW_OK) {

@@ -23,12 +23,14 @@ void fw_report_print_csv(FILE *to, const fw_campaign *c, const fw_answer *a)
     fprintf(
         to,
         "point,bearing_deg,percentile,depth_mm,low_mm,high_mm,coverage,method,mean_mm,mean_low_mm,mean_high_mm,path_km,"
-        "impact_share,high_share,life_depth_mm,life_low_mm,life_high_mm,life_windows,allowance_year\n");
+        "impact_share,high_share,life_depth_mm,life_low_mm,life_high_mm,life_windows,allowance_year,"
+        "with_law_depth_mm,with_law_low_mm,with_law_high_mm\n");
     for (size_t i = 0; i < a->n_percentiles; i++) {
         const fw_percentile_row *row = &a->percentiles[i];
         const fw_point_row      *p = &a->points[i / n];
         const fw_life_row        none = {
-                   .depth_mm = NAN, .low_mm = NAN, .high_mm = NAN, .windows = NAN, .allowance_year = NAN};
+                   .depth_mm = NAN, .low_mm = NAN, .high_mm = NAN, .windows = NAN, .allowance_year = NAN, .with_law_depth_mm = NAN,
+                   .with_law_low_mm = NAN, .with_law_high_mm = NAN};
         const fw_life_row *life = a->n_life ? &a->life[i] : &none;
         fprintf(to, "%zu", row->point);
         csv_number(to, row->bearing_deg);
@@ -49,6 +51,9 @@ void fw_report_print_csv(FILE *to, const fw_campaign *c, const fw_answer *a)
         csv_number(to, life->high_mm);
         csv_number(to, life->windows);
         csv_number(to, life->allowance_year);
+        csv_number(to, life->with_law_depth_mm);
+        csv_number(to, life->with_law_low_mm);
+        csv_number(to, life->with_law_high_mm);
         fputc('\n', to);
     }
 }
@@ -126,7 +131,70 @@ static void json_life(fw_json *j, const fw_answer *a)
         number(j, "high_mm", row->high_mm);
         number(j, "windows", row->windows);
         number(j, "allowance_year", row->allowance_year);
-        string(j, "assumption", "independent windows");
+        number(j, "with_law_depth_mm", row->with_law_depth_mm);
+        number(j, "with_law_low_mm", row->with_law_low_mm);
+        number(j, "with_law_high_mm", row->with_law_high_mm);
+        string(j, "assumption", a->service.assumption);
+        fw_json_end(j);
+    }
+    fw_json_end(j);
+}
+
+static void json_life_points(fw_json *j, const fw_answer *a)
+{
+    fw_json_key(j, "life_points");
+    fw_json_begin_array(j);
+    for (size_t i = 0; i < a->service.n_points; i++) {
+        const fw_life_point *p = &a->service.points[i];
+        fw_json_begin_object(j);
+        count(j, "point", p->point);
+        number(j, "bearing_deg", p->bearing_deg);
+        number(j, "mean_mm", p->mean_mm);
+        number(j, "cv", p->cv);
+        number(j, "cv_windows", p->cv_windows);
+        number(j, "cv_persistence", p->cv_persistence);
+        number(j, "cv_years", p->cv_years);
+        number(j, "years_half_width", p->years_half_width);
+        number(j, "allowance_mm", p->allowance_mm);
+        number(j, "never", p->never);
+        number(j, "with_law_never", p->with_law_never);
+        number(j, "allowance_year_p5", p->allowance_year_p5);
+        number(j, "allowance_year_p50", p->allowance_year_p50);
+        number(j, "allowance_year_p95", p->allowance_year_p95);
+        fw_json_end(j);
+    }
+    fw_json_end(j);
+}
+
+/* Year by year at the point that governs the life; NAME.h5 has all of them. */
+static void json_years(fw_json *j, const fw_answer *a)
+{
+    fw_json_key(j, "life_fan");
+    fw_json_begin_array(j);
+    for (size_t i = 0; i < a->service.n_fan; i++) {
+        const fw_fan_row *row = &a->service.fan[i];
+        if (row->point != a->service.governing_point) continue;
+        fw_json_begin_object(j);
+        count(j, "point", row->point);
+        number(j, "year", row->year);
+        number(j, "percentile", row->percentile);
+        number(j, "depth_mm", row->depth_mm);
+        number(j, "with_law_depth_mm", row->with_law_depth_mm);
+        fw_json_end(j);
+    }
+    fw_json_end(j);
+    fw_json_key(j, "allowance_year");
+    fw_json_begin_array(j);
+    for (size_t i = 0; i < a->service.n_allowance; i++) {
+        const fw_allowance_row *row = &a->service.allowance[i];
+        if (row->point != a->service.governing_point) continue;
+        fw_json_begin_object(j);
+        count(j, "point", row->point);
+        number(j, "year", row->year);
+        number(j, "probability", row->probability);
+        number(j, "by_then", row->by_then);
+        number(j, "with_law_probability", row->with_law_probability);
+        number(j, "with_law_by_then", row->with_law_by_then);
         fw_json_end(j);
     }
     fw_json_end(j);
@@ -223,6 +291,11 @@ void fw_report_print_json(FILE *to, const fw_campaign *c, const fw_answer *a)
     json_percentiles(&j, a);
     json_points(&j, a);
     json_life(&j, a);
+    if (a->n_life) {
+        count(&j, "life_governing_point", a->service.governing_point);
+        json_life_points(&j, a);
+        json_years(&j, a);
+    }
     json_ledger(&j, a);
     json_swept(&j, a);
     fw_json_key(&j, "effects_ledger"), fw_effects_json_rows(&j, &a->effects);

@@ -181,10 +181,9 @@ static void print_life(FILE *to, const fw_campaign *c, const fw_answer *a)
     for (size_t i = 0; i < a->n_life; i++) largest = fmax(largest, a->life[i].depth_mm);
     scaling s = scaling_for(largest);
     fprintf(to,
-            "\nservice life: %g years of %g h of ice, %.0f independent windows; depth in %s, [%g %% interval of the "
-            "mean]\n",
-            c->service.life_years, c->service.ice_hours_per_year, a->life[0].windows, unit_of(s, unit, sizeof unit),
-            100 * a->confidence);
+            "\nservice life: %g years of %g h of ice%s, %.0f %s; depth in %s, [%g %% interval]\n",
+            c->service.life_years, c->service.ice_hours_per_year, c->service.n_table ? " in the mean" : "", a->life[0].windows, a->service.assumption,
+            unit_of(s, unit, sizeof unit), 100 * a->confidence);
     if (has_allowance)
         fprintf(to, "(year): the year in which the allowance of %g mm is used up, - if it is not\n",
                 c->service.allowance);
@@ -208,6 +207,55 @@ static void print_life(FILE *to, const fw_campaign *c, const fw_answer *a)
             print_cell(to, text, k + 1 < n ? (has_allowance ? 26 : 20) : 0);
         }
         fputc('\n', to);
+    }
+}
+
+/* A year; "later" when it is not within the life. */
+static const char *format_year(char *text, size_t size, double year)
+{
+    if (isfinite(year))
+        snprintf(text, size, "%.0f", year);
+    else
+        snprintf(text, size, "later");
+    return text;
+}
+
+static void print_allowance(FILE *to, const fw_life_point *p)
+{
+    char years[3][16];
+    if (isnan(p->never)) return;
+    fprintf(to, "the allowance of %g mm, there: ", p->allowance_mm);
+    if (p->never > 1 - 5e-5) {
+        fprintf(to, "outlasts the life\n");
+        return;
+    }
+    fprintf(to, "used up within the life by a probability of %.3g %%, half of all lives by year %s, 5 %% by %s, 95 %% by %s\n",
+            100 * (1 - p->never), format_year(years[0], sizeof years[0], p->allowance_year_p50), format_year(years[1], sizeof years[1], p->allowance_year_p5),
+            format_year(years[2], sizeof years[2], p->allowance_year_p95));
+}
+
+static void print_with_law(FILE *to, const fw_answer *a, const fw_life_point *p, const fw_life_row *row)
+{
+    if (isnan(row->with_law_depth_mm)) return;
+    fprintf(to, "what is not known of the law, there: P%g = %.3g mm with it; %g %% of all laws put P%g at %.3g .. %.3g mm", row->percentile,
+            row->with_law_depth_mm, 100 * a->confidence, row->percentile, row->with_law_low_mm, row->with_law_high_mm);
+    if (isfinite(p->with_law_never)) fprintf(to, ", the allowance used up within the life by %.3g %%", 100 * (1 - p->with_law_never));
+    fputc('\n', to);
+}
+
+/* The point that governs the life: where its scatter comes from, when the allowance is used up, and what the law's uncertainty makes of it. */
+static void print_governing_life(FILE *to, const fw_answer *a)
+{
+    for (size_t i = 0; i < a->n_life; i++) {
+        const fw_life_row   *row = &a->life[i];
+        const fw_life_point *p = &a->service.points[i / percentiles_per_point(a)];
+        if (row->point != a->service.governing_point || row->percentile != a->design_percentile || !(p->mean_mm > 0)) continue;
+        fprintf(to, "\ngoverning the life: point %zu (%g deg), P%g = %.3g mm; coefficient of variation %.2g %% (in squares: independent windows %.2g %%, "
+                    "persistence %.2g %%, years %.2g %%)\n",
+                row->point, row->bearing_deg, row->percentile, row->depth_mm, 100 * p->cv, 100 * p->cv_windows, 100 * p->cv_persistence,
+                100 * p->cv_years);
+        print_allowance(to, p);
+        print_with_law(to, a, p, row);
     }
 }
 
@@ -273,6 +321,7 @@ void fw_report_print_table(FILE *to, const fw_campaign *c, const fw_answer *a)
     print_swept(to, a);
     print_water_level(to, c, a);
     print_life(to, c, a);
+    print_governing_life(to, a);
     print_ledger(to, a);
     print_effects(to, c, a);
     print_limits(to, c);

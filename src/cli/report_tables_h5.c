@@ -2,9 +2,10 @@
 
 #include "cli/accuracy_file.h"
 #include "cli/effects_tables.h"
+#include "cli/life_tables.h"
 #include "cli/table_builder.h"
 
-enum { N_TABLES = 5, MOST_TABLES = N_TABLES + FW_EFFECTS_TABLES + 2 };
+enum { N_TABLES = 5, MOST_TABLES = N_TABLES + FW_EFFECTS_TABLES + 2 + FW_LIFE_TABLES };
 
 static void build_percentiles(fw_table_builder *b, const fw_answer *a, fw_msg *m)
 {
@@ -47,8 +48,11 @@ static void build_life(fw_table_builder *b, const fw_answer *a, fw_msg *m)
     FW_TABLE_NUMBERS(b, a->life, fw_life_row, windows, "1", "windows in the life");
     FW_TABLE_NUMBERS(b, a->life, fw_life_row, allowance_year, "1",
                      "year in which the allowance is used up; NaN: not within the life");
-    const char **assumption = fw_table_texts(b, "assumption", "how windows depend on one another");
-    for (size_t i = 0; assumption && i < a->n_life; i++) assumption[i] = "independent windows";
+    FW_TABLE_NUMBERS(b, a->life, fw_life_row, with_law_depth_mm, "mm", "the same percentile with what is not known of the law; NaN: nothing said");
+    FW_TABLE_NUMBERS(b, a->life, fw_life_row, with_law_low_mm, "mm", "depth_mm under the lower end of the law's factor");
+    FW_TABLE_NUMBERS(b, a->life, fw_life_row, with_law_high_mm, "mm", "depth_mm under the upper end of the law's factor");
+    const char **assumption = fw_table_texts(b, "assumption", "how windows and years depend on one another");
+    for (size_t i = 0; assumption && i < a->n_life; i++) assumption[i] = a->service.assumption;
 }
 
 static void build_ledger(fw_table_builder *b, const fw_answer *a, fw_msg *m)
@@ -106,6 +110,7 @@ fw_status fw_report_write(const char *path, const fw_campaign *c, const fw_recor
     if (a->n_swept) build_swept(&builders[n++], a, m);
     if (a->effects.n_rows) fw_effects_tables_build(&builders[n], &a->effects, m), n += FW_EFFECTS_TABLES;
     if (c->after.has_water_level) build_water_level(&builders[n++], a, m);
+    n += fw_life_tables_build(&builders[n], &a->service, m);
     for (size_t i = 0; i < n; i++) {
         tables[i] = builders[i].table;
         if (s == FW_OK) s = builders[i].status;

@@ -71,9 +71,16 @@ static const fw_key ABRASION[] = {
            "abrasion laws; the first one governs the stop rule and the report"),
     SHAPED("crushing_limit", "", "{pressure, exponent}", "largest pressure that wears; left out: pressures of a first touch have no bound"),
     SHAPED("scatter", "", "distribution of a factor",
-           "on the law's rate: a row of the ledger, no part of the percentiles; left out: not measured"),
+           "on the law's rate: a row of the ledger and life percentiles with it, no part of a window's; left out: not measured"),
+    SHAPED("uncertainty", "", "{coefficient, exponent}", "how well the first law is known, the same over a life; acts like scatter"),
 };
 SECTION(fw_table_abrasion, "abrasion", "from contact pressure and sliding path to depth", ABRASION);
+
+static const fw_key UNCERTAINTY[] = {
+    SHAPED("coefficient", "", "distribution of a factor", "on the first law's coefficient; left out: known"),
+    SHAPED("exponent", "", "distribution", "of the first law's exponent, within those of the campaign's laws, between which ln(depth) is interpolated; left out: known"),
+};
+SECTION(fw_table_uncertainty, "abrasion.uncertainty", "how well the first abrasion law is known", UNCERTAINTY);
 
 static const fw_key CRUSHING_LIMIT[] = {
     NUMBER("pressure", limit_pressure, "Pa", NULL, FROM_TO(1e3, 1e8), "on a contact area of 1 m2"),
@@ -257,11 +264,14 @@ SECTION(fw_table_precision, "precision", "when there are enough realisations", P
 
 static const fw_key SERVICE[] = {
     NUMBER("life", life, "year", NULL, ABOVE_TO(0, 1e4), "service life"),
-    NUMBER("ice_hours_per_year", ice_hours_per_year, "h", NULL, ABOVE_TO(0, 8784),
-           "hours a year with ice at the structure"),
-    NUMBER("year_to_year_cv", year_to_year_cv, "1", "0", FROM_TO(0, 10), "coefficient of variation of a year's factor"),
+    NUMBER("ice_hours_per_year", ice_hours_per_year, "h", "", ABOVE_TO(0, 8784),
+           "hours a year with ice at the structure; unless service.years gives them"),
+    NUMBER("year_to_year_cv", year_to_year_cv, "1", "0", FROM_TO(0, 10),
+           "coefficient of variation of a year's lognormal factor of mean 1 on depth"),
+    SHAPED("years", "", "file name",
+           "CSV with columns (year), ice_hours, (factor): whole years of a site, drawn with replacement, factor on depth; instead of the two above"),
     NUMBER("persistence", persistence, "1", "0", FROM_TO(0, 0.9999),
-           "correlation of one window's depth with the next one's"),
+           "correlation of the normal scores of one window's depth and the next one's; a winter starts afresh"),
     NUMBER("allowance", allowance, "mm", "0 mm", AT_LEAST(0), "depth that may wear off; 0: none given"),
 };
 SECTION(fw_table_service, "service", "service life", SERVICE);
@@ -348,6 +358,7 @@ const fw_table_listed fw_tables[] = {
     {"both", &fw_table_archard},
     {"both", &fw_table_power},
     {"both", &fw_table_crushing_limit},
+    {"campaign", &fw_table_uncertainty},
     {"campaign", &fw_table_exposure},
     {"campaign", &fw_table_field},
     {"both", &fw_table_ring},

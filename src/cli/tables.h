@@ -67,7 +67,7 @@ extern const fw_section fw_table_contact, fw_table_water, fw_table_ring, fw_tabl
 /* Campaign files. */
 extern const fw_section fw_table_campaign, fw_table_structure, fw_table_points, fw_table_ice, fw_table_mix,
     fw_table_floe_diameter, fw_table_current, fw_table_tide, fw_table_wind, fw_table_exposure, fw_table_field, fw_table_numerics, fw_table_sampling, fw_table_precision,
-    fw_table_service;
+    fw_table_service, fw_table_uncertainty;
 /* Scene files. */
 extern const fw_section fw_table_scene, fw_table_scene_structure, fw_table_scene_ice, fw_table_scene_current,
     fw_table_scene_tide, fw_table_scene_wind, fw_table_scene_floe;

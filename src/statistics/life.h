@@ -4,7 +4,7 @@
  * of the window (mean n mu, variance n s^2, skewness g/sqrt(n)); the percentile is that of the gamma law with the
  * same three (Pearson III). That is exact for a sum of gamma windows, normal for n -> infinity and, unlike a
  * Cornish-Fisher expansion, monotone. Where few windows leave much of their own shape in the sum (skewness of the sum
- * above FW_LIFE_SKEWNESS and a simulation still cheap), the caller resamples windows instead. */
+ * above FW_LIFE_SKEWNESS), where windows resemble their neighbours or years differ, lives are simulated instead (lives.h). */
 #ifndef FW_STATISTICS_LIFE_H
 #define FW_STATISTICS_LIFE_H
 
@@ -21,8 +21,7 @@ typedef struct fw_life {
 /* From raw moments E D, E D^2, E D^3. */
 fw_life fw_life_of_moments(double m1, double m2, double m3);
 double  fw_life_percentile(const fw_life *window, double n_windows, double p); /* of the sum; n_windows > 0 */
+double  fw_life_cdf(const fw_life *window, double n_windows, double x);        /* P(sum <= x), the percentile read backwards; 1e-12 */
 bool    fw_life_is_smooth(const fw_life *window, double n_windows);            /* skewness of the sum small enough */
-/* Windows after which the p-quantile of the sum reaches limit; INFINITY when it does not within n_most. */
-double  fw_life_windows_to(const fw_life *window, double limit, double n_most, double p);
 
 #endif

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "study/rows.h"
+#include "study/service_run.h"
 
 /* Options with their defaults put in, and the points they name. */
 typedef struct question {
@@ -136,15 +137,14 @@ static void fill_point(const question *q, size_t i, const fw_window *w, fw_point
                           .high_share = load > 0 ? fw_depth_ring_mean(d, i, FW_DEPTH_RING_HIGH) / load : NAN};
 }
 
-static fw_status fill_life(fw_answer *a, const fw_campaign *c, const question *q, size_t i, const fw_window *w,
-                           fw_msg *m)
+static fw_status fill_life(fw_answer *a, fw_service_run *run, const question *q, size_t i, const fw_window *w, fw_msg *m)
 {
     fw_life_row *rows = a->life + i * q->n_percentiles;
     for (size_t k = 0; k < q->n_percentiles; k++) {
         rows[k].point = q->numbers[i];
         rows[k].bearing_deg = q->bearings[i];
     }
-    return fw_service_rows(c, w, q->n_percentiles, q->percentiles, q->confidence, rows, m);
+    return fw_service_point(run, w, i, rows, &a->service, m);
 }
 
 /* ---- the relative half-width that stop rule and table share
@@ -232,26 +232,38 @@ static fw_status water_level(fw_answer *a, const fw_campaign *c, const fw_window
     return s;
 }
 
-/* One point after the other, so that only one point's law is in memory; the governing one is made again for the
- * ledger. */
-static fw_status answer(fw_answer *a, const fw_campaign *c, const question *q, const fw_depth *d, fw_msg *m)
+/* One point after the other, so that only one point's law is in memory. */
+static fw_status answer_points(fw_answer *a, const question *q, const fw_depth *d, fw_service_run *run, fw_msg *m)
 {
     fw_window w;
-    FW_CHECK(d->n > 0, m, FW_E_FAILURES, "no realisation succeeded (%zu failed): there is nothing to answer from", d->n_failed);
-    FW_TRY(allocate(a, c, q, m));
     for (size_t i = 0; i < q->n_points; i++) {
         FW_TRY(fw_window_make(&w, d, i, m));
         fill_percentiles(q, i, &w, a->percentiles + i * q->n_percentiles);
         fill_point(q, i, &w, &a->points[i]);
-        fw_status s = a->n_life ? fill_life(a, c, q, i, &w, m) : FW_OK;
+        fw_status s = a->n_life ? fill_life(a, run, q, i, &w, m) : FW_OK;
         fw_window_free(&w);
         FW_TRY(s);
     }
+    return FW_OK;
+}
+
+/* The governing point's law is made again for the ledger. */
+static fw_status answer(fw_answer *a, const fw_campaign *c, const question *q, const fw_depth *d, const fw_law_factor *law, fw_msg *m)
+{
+    fw_window      w;
+    fw_service_run run;
+    FW_CHECK(d->n > 0, m, FW_E_FAILURES, "no realisation succeeded (%zu failed): there is nothing to answer from", d->n_failed);
+    FW_TRY(allocate(a, c, q, m));
+    FW_TRY(fw_service_open(&run, c, q->n_percentiles, q->percentiles, a->design_percentile, q->confidence, law, q->n_points, &a->service, m));
+    fw_status s = answer_points(a, q, d, &run, m);
+    fw_service_close(&run);
+    FW_TRY(s);
     FW_TRY(answered_width(a, c, q->n_percentiles, m));
     const fw_percentile_row *governing = find_governing(a, q->n_percentiles);
     a->governing_point = governing->point;
-    FW_TRY(fw_window_make(&w, d, (size_t)(governing - a->percentiles) / q->n_percentiles, m));
-    fw_status s = fw_ledger_rows(a, c, &w, governing, m);
+    size_t at = (size_t)(governing - a->percentiles) / q->n_percentiles;
+    FW_TRY(fw_window_make(&w, d, at, m));
+    s = fw_ledger_rows(a, c, &w, governing, law, at, m);
     if (s == FW_OK && c->after.has_water_level) s = water_level(a, c, &w, m);
     fw_window_free(&w);
     return s;
@@ -276,17 +288,20 @@ static fw_status check_sanity(fw_answer *a, const fw_campaign *c, const fw_depth
 fw_status fw_answer_make(fw_answer *out, const fw_campaign *c, const fw_answer_source *source,
                          const fw_answer_options *o, fw_msg *m)
 {
-    question  q;
-    fw_depth  d;
-    fw_sanity sanity;
+    question      q;
+    fw_depth      d;
+    fw_sanity     sanity;
+    fw_law_factor law;
     memset(out, 0, sizeof *out);
     memset(&q, 0, sizeof q);
     memset(&d, 0, sizeof d);
     memset(&sanity, 0, sizeof sanity);
+    memset(&law, 0, sizeof law);
     fw_status s = read_options(&q, c, o, m);
     if (s == FW_OK) s = fw_depth_make(&d, c, q.law, q.n_points, q.bearings, m);
     if (s == FW_OK) s = fw_sanity_begin(&sanity, c, q.law, m);
     if (s == FW_OK) s = collect(&d, &sanity, c, source, m);
+    if (s == FW_OK) s = fw_law_factor_make(&law, c, source, q.law, q.n_points, q.bearings, fw_service_lives(c), m);
     if (s == FW_OK) {
         out->n = source->n;
         out->n_failed = d.n_failed;
@@ -297,10 +312,11 @@ fw_status fw_answer_make(fw_answer *out, const fw_campaign *c, const fw_answer_s
             fw_measured_default(&out->measured, &c->model);
         if (o && o->effects) out->effects = *o->effects;
         out->design_percentile = choose_design_percentile(c, &q);
-        s = answer(out, c, &q, &d, m);
+        s = answer(out, c, &q, &d, &law, m);
         if (s == FW_OK) s = check_sanity(out, c, &d, &sanity, m);
     }
     fw_sanity_free(&sanity);
+    fw_law_factor_free(&law);
     fw_depth_free(&d);
     free_question(&q);
     if (s != FW_OK) fw_answer_free(out);
@@ -313,6 +329,7 @@ void fw_answer_free(fw_answer *a)
     free(a->percentiles);
     free(a->points);
     free(a->life);
+    fw_service_answer_free(&a->service);
     free(a->ledger);
     free(a->swept);
     memset(a, 0, sizeof *a);

@@ -7,6 +7,7 @@
 #include "study/effects_ledger.h"
 #include "study/measured.h"
 #include "study/sanity.h"
+#include "study/service.h"
 #include "study/water_level.h"
 
 /* Reads record id (0 .. n-1) into r, which is initialised with the campaign's sizes. law: what the site's scenarios are drawn from, for control
@@ -48,6 +49,9 @@ typedef struct fw_life_row {
     double bearing_deg, percentile, depth_mm, low_mm, high_mm;
     double windows;        /* in the life */
     double allowance_year; /* in which the percentile uses up the allowance, from 1; NAN: never, or none asked */
+    /* What is not known of the law in it: the percentile of depth times factor, and the percentile alone at the factor's confidence ends. NAN:
+     * nothing is said of the law. */
+    double with_law_depth_mm, with_law_low_mm, with_law_high_mm;
 } fw_life_row;
 
 typedef struct fw_ledger_row {
@@ -57,7 +61,7 @@ typedef struct fw_ledger_row {
     double cost_to_halve_cpu_s;                 /* on the machines that computed the records; NAN: not measured */
 } fw_ledger_row;
 
-/* The factor on the law's rate, as the campaign gives it. */
+/* The factor on the law's rate: its scatter as the campaign gives it, and at the governing point what is not known of coefficient and exponent. */
 typedef struct fw_law_scatter {
     bool   is_given;
     double mean, median, low, high; /* low, high: 95 % lie between them */
@@ -75,6 +79,7 @@ typedef struct fw_answer {
     fw_point_row      *points;
     size_t             n_life;
     fw_life_row       *life;
+    fw_service_answer  service; /* fan, allowance, map */
     fw_measured        measured; /* what the ledger's numerical rows are made from */
     fw_effects_ledger  effects;  /* what its rows of switched-off effects are made from */
     size_t             n_ledger;

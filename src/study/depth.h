@@ -98,10 +98,11 @@ const char *fw_window_method(const fw_window *w);                               
 /* Relative variance of the variance (statistics/spread.h) that the interval of percentile p, or with NAN of the mean, is made from; 0 for order statistics. */
 double      fw_window_vov(const fw_window *w, double p);
 fw_interval fw_window_mean_interval(const fw_window *w, double confidence);      /* [mm] */
+/* values (2 x n; of the first n each realisation's own number) become values whose plain mean is about and whose scatter is that of what the control
+ * variates leave: each realisation's, or each randomisation's, share in a weighted mean. Returns their number. */
+size_t      fw_window_pseudo_values(const fw_window *w, double about, double *values);
 /* The central value if the failed ones were all 0 (low) or all infinite (high; INFINITY when it is one of them). */
 void        fw_window_failure_ends(const fw_window *w, double p, double *low, double *high);
-/* One window drawn from the law by a uniform. [mm] */
-double      fw_window_draw(const fw_window *w, double u);
 
 /* Variances of P(D <= depth) of one plain window, of its mean over temperature and direction, and of what the control variates leave. */
 typedef struct fw_window_scatter {

@@ -167,3 +167,13 @@ fw_status fw_water_level_make(fw_water_level *out, const fw_distribution *level,
     free(w.quantile);
     return FW_OK;
 }
+
+fw_status fw_water_level_shares(const fw_distribution *level, double afloat, size_t n, const double *thickness, const double *weight,
+                                size_t n_heights, const double *heights, double *shares, fw_msg *m)
+{
+    wall   w = {.level = level};
+    double mean;
+    FW_TRY(gather(&w, afloat, n, thickness, weight, &mean, m));
+    for (size_t i = 0; i < n_heights; i++) shares[i] = share_at(&w, heights[i]);
+    return FW_OK;
+}

@@ -32,4 +32,8 @@ typedef struct fw_water_level {
 fw_status fw_water_level_make(fw_water_level *out, const fw_distribution *level, double afloat, size_t n, const double *thickness,
                               const double *weight, fw_msg *m);
 
+/* The share of a window's depth that stays at each of the heights [m]; shares (n_heights), 0 where nothing wore. */
+fw_status fw_water_level_shares(const fw_distribution *level, double afloat, size_t n, const double *thickness, const double *weight,
+                                size_t n_heights, const double *heights, double *shares, fw_msg *m);
+
 #endif

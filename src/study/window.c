@@ -111,8 +111,6 @@ double fw_window_percentile(const fw_window *w, double p)
     return w->is_sample ? fw_order_percentile(w->depth->n, w->sorted, p) : fw_mixture_quantile(&w->mixture, p);
 }
 
-double fw_window_draw(const fw_window *w, double u) { return fw_window_percentile(w, u); }
-
 /* ---- scatter ----------------------------------------------------------------------------------------------------- */
 
 /* P(D <= depth) in realisation i. This is asked a dozen times of every load of every point, hence no logarithms and no
@@ -211,15 +209,14 @@ const char *fw_window_method(const fw_window *w)
     return w->depth->control.is_on ? "averaged CDF, control variates" : "averaged CDF";
 }
 
-/* Values whose plain mean is the weighted one and whose scatter is that of the residuals: each realisation's, or each randomisation's, share in it. A mean goes
- * with the load itself: without it among the control variates, its scatter is taken without them. */
-static size_t pseudo_values(const fw_window *w, double *values)
+/* A mean goes with the load itself: without it among the control variates, its scatter is taken without them. */
+size_t fw_window_pseudo_values(const fw_window *w, double about, double *values)
 {
     const fw_depth *d = w->depth;
     const fw_units *u = &d->units;
-    double          units = (double)u->n_units, *shares = u->unit ? values + d->n : values;
-    memcpy(values, w->means, d->n * sizeof *values);
-    spread_of(w, w->moment[1], d->control.has_load, values);
+    double          units = (double)u->n_units, mean = 0, *shares = u->unit ? values + d->n : values;
+    for (size_t i = 0; i < d->n; i++) mean += weight_of(w, i) * values[i];
+    spread_of(w, mean, d->control.has_load, values);
     for (size_t r = 0; r < u->n_units && u->unit; r++) shares[r] = 0;
     for (size_t i = 0; i < d->n; i++) {
         double share = units * u->weight[i] * values[i];
@@ -228,14 +225,16 @@ static size_t pseudo_values(const fw_window *w, double *values)
         else
             shares[i] = share;
     }
-    for (size_t r = 0; r < u->n_units; r++) values[r] = w->moment[1] + shares[r];
+    for (size_t r = 0; r < u->n_units; r++) values[r] = about + shares[r];
     return u->n_units;
 }
 
 fw_interval fw_window_mean_interval(const fw_window *w, double confidence)
 {
     const fw_depth *d = w->depth;
-    size_t          n = pseudo_values(w, d->scratch), least = d->unit ? FW_MEAN_MIN_UNITS : FW_MEAN_MIN_N;
+    size_t          least = d->unit ? FW_MEAN_MIN_UNITS : FW_MEAN_MIN_N;
+    memcpy(d->scratch, w->means, d->n * sizeof *d->scratch);
+    size_t          n = fw_window_pseudo_values(w, w->moment[1], d->scratch);
     double          failed = failed_share(d);
     fw_interval     v = fw_mean_interval(n, d->scratch, d->unit ? 0 : d->n_failed, least, confidence);
     if (d->unit && d->n_failed) v.low *= 1 - failed, v.high = NAN;

@@ -49,9 +49,39 @@ def depths(load, bearing, shares, temperatures):
     return depth[order], weight[order]
 
 
+def make_life(file, numbers, bearings, means, allowance=math.nan, with_law=False, water_level=True, years=50):
+    """Lives of 400 windows a year whose depth after a year is normal with a CV of 0.5/sqrt(years); the law's factor is then 1/2 or 2."""
+    percentiles, scores = np.array([5.0, 50.0, 90.0, 95.0, 99.0]), np.array([-1.645, 0.0, 1.282, 1.645, 2.326])
+    year = np.arange(1.0, years + 1.0)
+    depth = 400.0 * means[:, None, None] * (year[:, None] + 0.5 * np.sqrt(year[:, None]) * scores)  # points x years x percentiles
+    law = depth * np.where(scores > 0.0, 2.0, np.where(scores < 0.0, 0.5, 1.0)) if with_law else np.full_like(depth, math.nan)
+    point, at, p = (a.ravel() for a in np.meshgrid(np.arange(len(numbers)), year, percentiles, indexing="ij"))
+    table(file, "life_fan", {"point": numbers[point], "bearing_deg": bearings[point], "year": at, "percentile": p, "depth_mm": depth.ravel(),
+                             "with_law_depth_mm": law.ravel()})
+    end = depth[:, -1, 1:].ravel()
+    table(file, "service_life", {"point": np.repeat(numbers, 4), "percentile": np.tile(percentiles[1:], len(numbers)), "depth_mm": end,
+                                 "low_mm": 0.8 * end, "high_mm": 1.3 * end, "assumption": ["windows of persistence 0.9"] * len(end)})
+    none = np.full(len(numbers), math.nan)
+    table(file, "life_points", {"point": numbers, "bearing_deg": bearings, "cv": np.full(len(numbers), 0.5 / math.sqrt(years)),
+                                "allowance_mm": np.full(len(numbers), allowance), "never": none, "with_law_never": none})
+    if not math.isnan(allowance):
+        by_then = np.array([[0.5 * math.erfc((allowance / (400.0 * m) - t) / (0.5 * math.sqrt(2.0 * t))) if m > 0.0 else 0.0 for t in year]
+                            for m in means])
+        new = np.diff(np.maximum.accumulate(by_then, axis=1), axis=1, prepend=0.0)
+        file["life_points/never"][...] = 1.0 - by_then[:, -1]
+        file["life_points/with_law_never"][...] = 1.0 - by_then[:, -1] if with_law else math.nan
+        table(file, "allowance_year", {"point": np.repeat(numbers, years), "year": np.tile(year, len(numbers)), "probability": new.ravel(),
+                                       "with_law_probability": (0.5 * new if with_law else math.nan * new).ravel()})
+    if water_level:
+        height = np.linspace(-1.5, 1.0, 81)
+        share = np.exp(-0.5 * ((height + 0.2) / 0.4) ** 2)
+        table(file, "life_map", {"point": np.repeat(numbers, 81), "bearing_deg": np.repeat(bearings, 81), "height_m": np.tile(height, len(numbers)),
+                                 "percentile": np.full(81 * len(numbers), 90.0), "depth_mm": (depth[:, -1, 2, None] * share).ravel()})
+
+
 def make(path, name="synthetic", n=200, bearings=None, direction=ROSE, shares=None, temperatures=(-12.0, -2.0),
-         scale=1.0, percentiles=(50, 90, 95, 99), n_failed=0, sets=(), seed=1):
-    """shares: {direction: share}, what `direction` says; scale: of the wear load [1e-3 MPa^1.121 km]."""
+         scale=1.0, percentiles=(50, 90, 95, 99), n_failed=0, sets=(), seed=1, life=None):
+    """shares: {direction: share}, what `direction` says; scale: of the wear load [1e-3 MPa^1.121 km]; life: what make_life takes."""
     random = np.random.default_rng(seed)
     bearings = np.arange(0.0, 360.0, 15.0) if bearings is None else np.asarray(bearings, float)
     shares = ROSE_SHARES if shares is None else shares
@@ -84,6 +114,8 @@ def make(path, name="synthetic", n=200, bearings=None, direction=ROSE, shares=No
                                      "window": np.full(n, 10800.0), "wear_load": load[:, None, :]})
         laws = np.array(["bekker2011"], dtype=h5py.string_dtype())
         file["realisations/wear_load"].attrs["laws"] = laws
+        if life is not None:
+            make_life(file, numbers, bearings, np.array(means), **life)
     return path
 
 

@@ -42,7 +42,8 @@ class Figures(unittest.TestCase):
     def draw(self, name, **options):
         folder = WORK / name
         folder.mkdir(parents=True, exist_ok=True)
-        return self.check(name, folder, make_results.make(folder / f"{name}.h5", name=name, **options), ("exceedance", "polar"))
+        kinds = options.pop("kinds", ("exceedance", "polar"))
+        return self.check(name, folder, make_results.make(folder / f"{name}.h5", name=name, **options), kinds)
 
     def draw_study(self, name, **options):
         folder = WORK / name
@@ -85,6 +86,31 @@ class Figures(unittest.TestCase):
 
     def test_one_window_one_point(self):
         self.draw("single", n=1, bearings=[200.0], direction="20 deg", shares={20.0: 1.0})
+
+    def test_service_life(self):
+        """With an allowance that some lives use up and a law that is not known; with one far off; over part of the wall and no water level."""
+        both = ("exceedance", "life-fan", "life-map", "polar")
+        path = make_results.make(WORK / "life.h5", life={"water_level": False})
+        with h5py.File(path) as file:
+            end = float(file["life_fan/depth_mm"][...].max())
+        self.draw("life", kinds=both, life={"allowance": 0.95 * end, "with_law": True})
+        self.draw("life-far", kinds=both, life={"allowance": 20.0})
+        self.draw("life-front", kinds=("exceedance", "life-fan", "polar"), bearings=(np.arange(-75.0, 76.0, 15.0)) % 360.0, life={"water_level": False})
+        self.draw("life-none", scale=0.0, life={})
+
+    def test_life_grid(self):
+        """A full circle is closed, bearings do not fall, and each column is its point's own profile."""
+        results = Results(make_results.make(WORK / "grid.h5", bearings=(np.arange(0.0, 360.0, 30.0) + 330.0) % 360.0, life={}))
+        bearings, heights, depth = life.map_grid(results)
+        self.assertEqual((len(bearings), len(heights)), (13, 81))
+        np.testing.assert_allclose(np.diff(bearings), 30.0)
+        np.testing.assert_array_equal(depth[:, 0], depth[:, -1])
+        rows = results.life["life_map"]
+        for k, bearing in enumerate(bearings):
+            np.testing.assert_array_equal(depth[:, k], rows["depth_mm"][rows["bearing_deg"] == bearing % 360.0])
+        years, curves = life.fan_of(results, 1)
+        self.assertEqual((years[0], years[-1], sorted(curves)), (0.0, 50.0, [5.0, 50.0, 90.0, 95.0, 99.0]))
+        self.assertTrue(all(curve[0] == 0.0 and np.all(np.diff(curve) > 0.0) for curve in curves.values()))
 
     def test_accuracy_study(self):
         self.draw_study("study")
@@ -159,6 +185,7 @@ if __name__ == "__main__":
     SOURCE, WORK = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
     sys.path.insert(0, str(SOURCE / "analysis"))
     import accuracy
+    import life
     import windows
     from results import Results
     unittest.main(argv=sys.argv[:1], verbosity=2)

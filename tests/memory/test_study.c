@@ -80,6 +80,17 @@ static void answers(void **state)
     q.campaign.site.direction = made_up_law(FW_DIST_NORMAL, 20, 25);
     q.campaign.service.allowance = 20;
     ask("answer of scattered scenes", &q, 60);
+    fw_service_year table[] = {{15, 1}, {9, 2}};
+    fw_service      alone = q.campaign.service;
+    q.campaign.points.n = 1;
+    q.campaign.service = (fw_service){.is_asked = true, .life_years = 1, .ice_hours_per_year = 12, .persistence = 0.9, .n_table = 2, .table = table};
+    q.campaign.model.n_laws = 2;
+    q.campaign.model.laws[1] = (fw_abrasion_law){"power", 0.1, 1.3, true};
+    q.campaign.after.has_law_exponent = true;
+    q.campaign.after.law_exponent = made_up_law(FW_DIST_UNIFORM, 1.15, 1.25);
+    ask("answer with lives that are simulated", &q, 60);
+    q.campaign.after.has_law_exponent = false;
+    q.campaign.model.n_laws = 1, q.campaign.points.n = 2, q.campaign.service = alone;
     q.campaign.service.is_asked = false;
     ask("answer of 120 records", &q, 120); /* beyond 20000 entries: joined in bins */
     q.campaign.precision.quantity = FW_QUANTITY_MEAN;

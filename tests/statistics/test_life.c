@@ -26,6 +26,23 @@ static void sums_of_gamma_windows_are_exact(void **state)
             assert_near(fw_life_percentile(&w, ns[i], ps[k]), gsl_cdf_gamma_Pinv(ps[k], shape * ns[i], scale), 1e-7);
 }
 
+static void the_cdf_reads_percentiles_backwards(void **state)
+{
+    (void)state;
+    fw_life      skew = {2, 3, 4}, left = {2, 1, -0.5}, constant = {2, 0, 0};
+    const double ns[] = {1, 20, 500, 4000, 1e5}, ps[] = {0.01, 0.5, 0.9, 0.99};
+    for (size_t i = 0; i < 5; i++)
+        for (size_t k = 0; k < 4; k++) {
+            assert_near(fw_life_cdf(&skew, ns[i], fw_life_percentile(&skew, ns[i], ps[k])), ps[k], 1e-9);
+            assert_near(fw_life_cdf(&left, ns[i], fw_life_percentile(&left, ns[i], ps[k])), ps[k], 1e-9);
+            /* the gamma law itself, on either side of where its expansion takes over */
+            double shape = ns[i] / 4, y = (fw_life_percentile(&skew, ns[i], ps[k]) - 2 * ns[i]) / (3 * sqrt(ns[i]));
+            assert_near(gsl_cdf_gamma_P(shape + sqrt(shape) * y, shape, 1), ps[k], 1e-7);
+        }
+    assert_true(fw_life_cdf(&skew, 1000, -1) == 0 && fw_life_cdf(&skew, 1000, 1e9) == 1);
+    assert_true(fw_life_cdf(&constant, 10, 19.9) == 0 && fw_life_cdf(&constant, 10, 20) == 1);
+}
+
 static void many_windows_are_normal(void **state)
 {
     (void)state;
@@ -61,27 +78,20 @@ static void lognormal_windows_match_a_simulation(void **state)
     free(sums);
 }
 
-static void the_allowance_is_reached_when_the_percentile_says_so(void **state)
+static void windows_without_scatter(void **state)
 {
     (void)state;
-    fw_life w = {2, 3, 4};
-    double  n = fw_life_windows_to(&w, 1000, 2000, 0.9);
-    assert_near(fw_life_percentile(&w, n, 0.9), 1000, 1e-9);
-    assert_true(n < 500); /* the upper percentile gets there before the mean */
-    assert_true(fw_life_windows_to(&w, 1e9, 2000, 0.9) == INFINITY);
-    assert_true(fw_life_windows_to(&w, 1, 0, 0.9) == INFINITY);
-    fw_life constant = fw_life_of_moments(2, 4, 8); /* no scatter */
+    fw_life constant = fw_life_of_moments(2, 4, 8), nothing = fw_life_of_moments(0, 0, 0);
     assert_near(fw_life_percentile(&constant, 10, 0.99), 20, 1e-15);
-    assert_near(fw_life_windows_to(&constant, 10, 100, 0.99), 5, 1e-9);
-    fw_life nothing = fw_life_of_moments(0, 0, 0);
-    assert_true(fw_life_percentile(&nothing, 10, 0.99) == 0 && fw_life_windows_to(&nothing, 1, 100, 0.5) == INFINITY);
+    assert_true(fw_life_percentile(&nothing, 10, 0.99) == 0 && fw_life_cdf(&nothing, 100, 1) == 1);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(sums_of_gamma_windows_are_exact),
+                                       cmocka_unit_test(the_cdf_reads_percentiles_backwards),
                                        cmocka_unit_test(many_windows_are_normal),
                                        cmocka_unit_test(lognormal_windows_match_a_simulation),
-                                       cmocka_unit_test(the_allowance_is_reached_when_the_percentile_says_so)};
+                                       cmocka_unit_test(windows_without_scatter)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

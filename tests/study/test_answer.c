@@ -312,8 +312,9 @@ static void a_life_is_a_sum_of_windows(void **state)
     /* 20000 windows of CV about 1.9: CV of the sum 1.4 %, skewness 0.05; the mean's interval carries over */
     CHECK_RELATIVE(a.life[0].depth_mm, n * mu, 2e-3);
     assert_true(a.life[3].depth_mm > a.life[0].depth_mm * 1.02 && a.life[3].depth_mm < a.life[0].depth_mm * 1.06);
-    CHECK_RELATIVE(a.life[0].low_mm / a.life[0].depth_mm, a.points[0].mean_low_mm / mu, 1e-12);
-    CHECK_RELATIVE(a.life[0].high_mm / a.life[0].depth_mm, a.points[0].mean_high_mm / mu, 1e-12);
+    /* an interval like the mean's: what is not known of a window's variance moves a life's percentile next to nothing */
+    CHECK_RELATIVE((a.life[3].high_mm - a.life[3].low_mm) / a.life[3].depth_mm, (a.points[0].mean_high_mm - a.points[0].mean_low_mm) / mu, 0.15);
+    assert_true(a.life[3].low_mm < a.life[3].depth_mm && a.life[3].depth_mm < a.life[3].high_mm);
     assert_true(isnan(a.life[0].allowance_year)); /* none asked */
     fw_answer_free(&a);
 
