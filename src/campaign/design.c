@@ -183,6 +183,22 @@ void fw_campaign_scenario(const fw_campaign *c, uint64_t id, fw_scenario *out)
     design_take_weather(c, u, out);
 }
 
+size_t fw_campaign_n_strata(const fw_campaign *c)
+{
+    fw_strata strata;
+
+    fw_strata_make(&strata, &c->model, &c->site);
+    return strata.n;
+}
+
+size_t fw_campaign_stratum(const fw_campaign *c, const fw_scenario *s)
+{
+    fw_strata strata;
+
+    fw_strata_make(&strata, &c->model, &c->site);
+    return fw_strata_find(&strata, s);
+}
+
 /* ---- the law itself ---------------------------------------------------------------------------------------------- */
 
 /* With this many an average of log-linear functions of speed, concentration and mix is right to 1e-4 of their scatter (tests/campaign/test_design.c). */

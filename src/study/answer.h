@@ -112,5 +112,7 @@ typedef struct fw_reached {
 } fw_reached;
 #define FW_ANSWER_MOST_VOV 0.1
 fw_status fw_answer_reached(const fw_campaign *c, const fw_answer_source *source, fw_reached *out, fw_msg *m);
+/* The same with a strip of the first law that is there already (sanity.h); records are added to it. */
+fw_status fw_answer_reached_beside(const fw_campaign *c, const fw_answer_source *source, fw_sanity *strip, fw_reached *out, fw_msg *m);
 
 #endif
