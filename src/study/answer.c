@@ -264,6 +264,7 @@ static fw_status answer(fw_answer *a, const fw_campaign *c, const question *q, c
     size_t at = (size_t)(governing - a->percentiles) / q->n_percentiles;
     FW_TRY(fw_window_make(&w, d, at, m));
     s = fw_ledger_rows(a, c, &w, governing, law, at, m);
+    if (s == FW_OK) fw_ledger_advise(a, q->n_percentiles);
     if (s == FW_OK && c->after.has_water_level) s = water_level(a, c, &w, m);
     fw_window_free(&w);
     return s;
