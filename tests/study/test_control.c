@@ -169,7 +169,7 @@ static void plain_sampling(void **state)
     fw_site_free(&c.site);
 }
 
-/* What a design has gained already cannot be gained again: there a factor of 2. */
+/* What a design has gained already cannot be gained again: Sobol points know P50 twice as well as plain ones to begin with. */
 static void designs(void **state)
 {
     enum { REPEATS = 500, FEWER = 100, N = 256 };
@@ -181,7 +181,7 @@ static void designs(void **state)
         is_unbiased(&with, SITE_WAY[way], spread_over(&without, MEAN));
         is_unbiased(&without, SITE_WAY[way], 0);
         is_covered(&with, SITE_WAY[way]);
-        is_narrower(&with, &without, SITE_WAY[way], 0.5);
+        is_narrower(&with, &without, SITE_WAY[way], 0.65);
     }
     fw_site_free(&c.site);
 }
