@@ -13,6 +13,7 @@
 #include "cli/output.h"
 #include "cli/plan_design.h"
 #include "cli/plan_effects.h"
+#include "cli/plan_strip.h"
 #include "effects/effects.h"
 #include "floewear/campaign.h"
 #include "realisation/accuracy.h"
@@ -141,8 +142,8 @@ static bool effect_state(const fw_campaign *c, const fw_scene_facts *f, const fw
     return is_on;
 }
 
-static void print_json(const fw_campaign *c, const fw_scene_facts *facts, const fw_choice *choice, const expected *of, const fw_outlook *x,
-                       const fw_plan_forecast *f, double speed)
+static void print_json(const fw_campaign *c, const fw_scene_facts *facts, const fw_choice *choice, const expected *of, const fw_plan_strip *strip,
+                       const fw_outlook *x, const fw_plan_forecast *f, double speed)
 {
     fw_json                 j = fw_json_onto(stdout);
     const fw_effect *const *e;
@@ -183,6 +184,7 @@ static void print_json(const fw_campaign *c, const fw_scene_facts *facts, const 
     fw_json_key(&j, "force_evaluations_mean"), fw_json_number(&j, of->mean);
     fw_json_key(&j, "force_evaluations_most"), fw_json_number(&j, of->most);
     fw_json_end(&j);
+    fw_plan_strip_json(&j, c, strip);
     fw_plan_design_json(&j, c, x, f);
     fw_json_key(&j, "not_applied");
     fw_json_begin_array(&j);
@@ -219,7 +221,7 @@ static void print_effects(const fw_campaign *c, const fw_scene_facts *facts, con
 }
 
 static void print_text(const arguments *a, const fw_campaign *c, const fw_scene_facts *facts, const fw_choice *choice, const expected *of,
-                       const fw_outlook *x, const fw_plan_forecast *f, double speed)
+                       const fw_plan_strip *strip, const fw_outlook *x, const fw_plan_forecast *f, double speed)
 {
     printf("plan of campaign %s\n\n", c->name);
     print_effects(c, facts, choice);
@@ -234,6 +236,7 @@ static void print_text(const arguments *a, const fw_campaign *c, const fw_scene_
         printf("  one that takes more than %.3g fails (exposure.max_force_evaluations)\n", c->model.max_evaluations);
     else
         printf("  one that takes more than 100 times what is expected of it and than 1e9 fails (exposure.max_force_evaluations: auto)\n");
+    fw_plan_strip_print(stdout, c, strip);
     fw_plan_design_print(stdout, c, x, f, fw_plan_pilot_size(c, a->pilot));
     for (size_t i = 0; i < c->n_not_applied; i++)
         printf("%s%s is read and checked but not applied in this version\n", i ? "" : "\n", c->not_applied[i]);
@@ -275,6 +278,7 @@ static fw_status plan(const arguments *a, fw_msg *m)
     fw_record       *pilot = NULL;
     size_t           n = 0;
     fw_outlook       x = {0};
+    fw_plan_strip    strip = {0};
     expected         e = {0, 0};
     fw_choice        choice;
     fw_scene_facts   facts;
@@ -283,6 +287,7 @@ static fw_status plan(const arguments *a, fw_msg *m)
     FW_TRY(fw_choice_campaign(&c, &wanted, &choice, m));
     fw_status s = fw_facts_campaign(&c.model, &c.site, &facts, m);
     if (s == FW_OK) s = expect(&c, &e, m);
+    if (s == FW_OK) s = fw_plan_strip_make(&strip, &c, m);
     if (s == FW_OK) s = fw_plan_pilot(&c, a->pilot, a->is_quiet, &pilot, &n, m);
     if (s == FW_OK) s = fw_plan_outlook(&x, &c, n, pilot, a->is_quiet, m);
     if (s == FW_OK) {
@@ -290,12 +295,13 @@ static fw_status plan(const arguments *a, fw_msg *m)
         double           speed = mean_speed(&c, n, pilot);
         s = store_choice(a, &c, &x, &f, n, pilot, m);
         if (a->is_json)
-            print_json(&c, &facts, &choice, &e, &x, &f, speed);
+            print_json(&c, &facts, &choice, &e, &strip, &x, &f, speed);
         else
-            print_text(a, &c, &facts, &choice, &e, &x, &f, speed);
+            print_text(a, &c, &facts, &choice, &e, &strip, &x, &f, speed);
         if (s == FW_OK) s = fw_output_finish(m);
     }
     fw_outlook_free(&x);
+    fw_plan_strip_free(&strip);
     for (size_t i = 0; i < n; i++) fw_record_free(&pilot[i]);
     free(pilot);
     fw_campaign_free(&c);
