@@ -138,8 +138,7 @@ static fw_status read_measured(const char *path, const fw_campaign *c, fw_measur
 
 static fw_status report_campaign(const report_arguments *a, const fw_campaign *c, fw_results *r, fw_msg *m)
 {
-    fw_record_source  records = fw_results_records(r);
-    fw_answer_source  source = {.n = records.n, .read = records.read, .self = records.self, .law = fw_campaign_law(c)};
+    fw_answer_source  source = {.records = fw_results_records(r), .law = fw_campaign_law(c)};
     fw_answer_options o = {
         .n_percentiles = a->n_percentiles, .percentiles = a->percentiles, .n_points = a->n_points, .points = a->points};
     fw_answer   answer;

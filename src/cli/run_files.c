@@ -146,5 +146,5 @@ fw_record_source fw_run_files_records(fw_run_files *f, uint64_t n)
 
 fw_answer_source fw_run_files_answer(fw_run_files *f, uint64_t n)
 {
-    return (fw_answer_source){.n = n, .read = files_read, .self = f, .law = fw_campaign_law(f->campaign)};
+    return (fw_answer_source){.records = fw_run_files_records(f, n), .law = fw_campaign_law(f->campaign)};
 }
