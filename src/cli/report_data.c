@@ -297,6 +297,8 @@ void fw_report_print_json(FILE *to, const fw_campaign *c, const fw_answer *a)
     string(&j, "campaign", c->name);
     count(&j, "n", a->n);
     count(&j, "failed", a->n_failed);
+    count(&j, "first_id", a->span.first);
+    count(&j, "last_id", (a->span.end ? a->span.end : a->n) - 1);
     count(&j, "seed", c->seed);
     number(&j, "window_s", c->model.window);
     number(&j, "confidence", a->confidence);

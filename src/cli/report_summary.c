@@ -31,6 +31,19 @@ static void print_what(FILE *to, const fw_campaign *c, const fw_answer *a)
     fputc('\n', to);
 }
 
+/* Which realisations, where they are not the first n of the campaign. */
+static void print_part(FILE *to, const fw_answer *a)
+{
+    const fw_id_span *s = &a->span;
+    if (s->first == 0 && (s->end == 0 || s->end == a->n)) return;
+    fprintf(to, "a part of the campaign: realisations %" PRIu64 " to %" PRIu64, s->first, s->end - 1);
+    if (s->end - s->first > a->n) {
+        fprintf(to, ", of which %" PRIu64 " are missing, the first gap from %" PRIu64 " to %" PRIu64, s->end - s->first - a->n, s->gap_first,
+                s->gap_end - 1);
+    }
+    fputc('\n', to);
+}
+
 static const fw_percentile_row *governing_row(const fw_answer *a)
 {
     for (size_t i = 0; i < a->n_percentiles; i++)
@@ -94,6 +107,7 @@ static void print_advice(FILE *to, const fw_answer *a)
 void fw_report_print_summary(FILE *to, const fw_campaign *c, const fw_answer *a)
 {
     print_what(to, c, a);
+    print_part(to, a);
     print_governing(to, a);
     print_life(to, a);
     print_precision(to, c, a);

@@ -78,19 +78,10 @@ static fw_status read_options(question *q, const fw_campaign *c, const fw_answer
     return choose_points(q, c, o, m);
 }
 
-/* Stream the records through, one in memory at a time. */
-static fw_status collect(fw_depth *d, fw_sanity *sanity, const fw_campaign *c, const fw_answer_source *source, fw_msg *m)
+static fw_status collect(fw_depth *d, fw_sanity *sanity, const fw_answer_source *source, fw_msg *m)
 {
-    fw_record r;
-    FW_TRY(fw_record_init(&r, c->model.n_arcs, c->model.n_laws, m));
-    fw_status s = FW_OK;
-    for (uint64_t id = 0; id < source->n && s == FW_OK; id++) {
-        s = source->read(source->self, id, &r, m);
-        if (s == FW_OK) s = fw_depth_add(d, &r, m);
-        if (s == FW_OK) fw_sanity_add(sanity, &r, r.weight);
-    }
-    fw_record_free(&r);
-    return s == FW_OK && d->n > 0 ? fw_depth_settle(d, source->law.point ? &source->law : NULL, sanity, m) : s;
+    FW_TRY(fw_depth_stream(d, sanity, &source->records, m));
+    return d->n > 0 ? fw_depth_settle(d, source->law.point ? &source->law : NULL, sanity, m) : FW_OK;
 }
 
 static double choose_design_percentile(const fw_campaign *c, const question *q)
@@ -301,11 +292,12 @@ fw_status fw_answer_make(fw_answer *out, const fw_campaign *c, const fw_answer_s
     fw_status s = read_options(&q, c, o, m);
     if (s == FW_OK) s = fw_depth_make(&d, c, q.law, q.n_points, q.bearings, m);
     if (s == FW_OK) s = fw_sanity_begin(&sanity, c, q.law, m);
-    if (s == FW_OK) s = collect(&d, &sanity, c, source, m);
+    if (s == FW_OK) s = collect(&d, &sanity, source, m);
     if (s == FW_OK) s = fw_law_factor_make(&law, c, source, q.law, q.n_points, q.bearings, fw_service_lives(c), m);
     if (s == FW_OK) {
-        out->n = source->n;
+        out->n = source->records.n;
         out->n_failed = d.n_failed;
+        out->span = source->records.span;
         out->confidence = q.confidence;
         if (o && o->measured)
             out->measured = *o->measured;
@@ -403,7 +395,7 @@ fw_status fw_answer_reached_beside(const fw_campaign *c, const fw_answer_source 
     memset(&d, 0, sizeof d);
     fw_status s = asked_points(c, &bearings, &n, m);
     if (s == FW_OK) s = fw_depth_make(&d, c, 0, n, bearings, m);
-    if (s == FW_OK) s = collect(&d, strip, c, source, m);
+    if (s == FW_OK) s = collect(&d, strip, source, m);
     if (s == FW_OK && d.n > 0) s = measure_reached(c, &d, out, m); /* with nothing but failures the width stays infinite */
     fw_depth_free(&d);
     free(bearings);

@@ -15,6 +15,7 @@
 #define FW_STUDY_DEPTH_H
 
 #include "floewear/campaign.h"
+#include "floewear/records.h"
 #include "statistics/mixture.h"
 #include "statistics/order.h"
 #include "statistics/spread.h"
@@ -75,6 +76,8 @@ enum { FW_DEPTH_RING_LOAD, FW_DEPTH_RING_IMPACT, FW_DEPTH_RING_HIGH, FW_DEPTH_RI
 fw_status fw_depth_make(fw_depth *out, const fw_campaign *c, size_t law, size_t n_points, const double *bearings,
                         fw_msg *m);
 fw_status fw_depth_add(fw_depth *d, const fw_record *r, fw_msg *m);
+/* All records of a source, as many in memory at a time as it lends. strip: NULL, or they are added to it. */
+fw_status fw_depth_stream(fw_depth *d, fw_sanity *strip, const fw_record_source *from, fw_msg *m);
 /* After the last record: weights. scenarios NULL: no control variates. strip: NULL, or helps them. FW_E_FAILURES when no realisation succeeded. */
 fw_status fw_depth_settle(fw_depth *d, const fw_scenario_law *scenarios, const fw_sanity *strip, fw_msg *m);
 void      fw_depth_free(fw_depth *d);

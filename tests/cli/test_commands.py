@@ -80,7 +80,7 @@ class Usage(InFolder):
     def test_no_command_and_mistyped_ones(self):
         done = call()
         self.assertEqual((done.returncode, done.stdout), (2, ""))
-        for command in ("run", "plan", "scene", "accuracy", "report", "status", "keys", "effects", "laws"):
+        for command in ("run", "plan", "scene", "accuracy", "report", "merge", "status", "keys", "effects", "laws"):
             self.assertIn(command, done.stderr)
             self.refuse(2, command + "x", piece=f"did you mean '{command}'?")
         self.refuse(2, "Q7!")
@@ -91,7 +91,7 @@ class Usage(InFolder):
             done = call(*words)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertIn("Exit codes", done.stdout)
-        for command in ("run", "plan", "scene", "report", "status", "keys", "effects", "laws"):
+        for command in ("run", "plan", "scene", "report", "merge", "status", "keys", "effects", "laws"):
             done = call(command, "--help")
             self.assertEqual((done.returncode, done.stderr), (0, ""), command)
             self.assertIn(f"Usage: floewear {command}", done.stdout)
@@ -104,7 +104,7 @@ class Usage(InFolder):
             ["scene", scene, scene], ["scene", "--interval"], ["run", small, "--time-budget", "3"], ["run", small, "--seed", "-1"],
             ["run", small, "--set", "nothing"], ["run", small, "--only-id", "1.5"], ["report", "a.h5", "--points", "0"],
             ["report", "a.h5", "--points", "1,,2"], ["report", "a.h5", "--percentiles", "100"], ["report", "a.h5", "--csv", "--json"],
-            ["status"], ["status", "a", "b"], ["keys", "x"], ["laws", "x"], ["effects", "--yaml"],
+            ["merge"], ["merge", "a.h5"], ["status"], ["status", "a", "b"], ["keys", "x"], ["laws", "x"], ["effects", "--yaml"],
         ):
             done = call(*words)
             self.assertEqual((done.returncode, done.stdout), (2, ""), words)
