@@ -106,7 +106,7 @@ static void draw(factors *f, uint64_t seed)
             const double *column = f->column + k * n, g = gsl_cdf_ugaussian_Pinv(fw_uniforms_next(&u));
             for (size_t p = 0; p < n; p++) f->errors[p] += column[p] * g;
         }
-        for (size_t p = 0; p < n; p++) most = fmax(most, fabs(f->errors[p]));
+        for (size_t p = 0; p < n; p++) most = fabs(f->errors[p]) > most ? fabs(f->errors[p]) : most;
         f->largest[i] = most;
     }
 }
