@@ -17,15 +17,16 @@ typedef struct report_arguments {
     size_t      n_percentiles, percentiles_capacity;
     size_t     *points; /* (n_points) */
     size_t      n_points, points_capacity;
-    bool        is_csv, is_json;
+    bool        is_csv, is_json, is_together;
 } report_arguments;
 
-enum { KEY_CSV = 256, KEY_JSON, KEY_LAW };
+enum { KEY_CSV = 256, KEY_JSON, KEY_LAW, KEY_SIMULTANEOUS };
 
 static const struct argp_option report_options[] = {
     {"points", 'p', "LIST", 0, "measuring points by number, as in 1,6 (default: all)", 0},
     {"percentiles", 'q', "LIST", 0, "percentiles, as in 50,90,95,99 (default: these)", 0},
     {"law", KEY_LAW, "NAME", 0, "abrasion law of the campaign (default: its first)", 0},
+    {"simultaneous", KEY_SIMULTANEOUS, NULL, 0, "in the table of points: intervals that cover at all of them together (CSV and JSON have both)", 0},
     {"csv", KEY_CSV, NULL, 0, "one line per point and percentile", 0},
     {"json", KEY_JSON, NULL, 0, "print JSON", 0},
     {0}};
@@ -83,6 +84,7 @@ static error_t report_parse(int key, char *text, struct argp_state *state)
     case KEY_LAW: a->law = text; return 0;
     case KEY_CSV: a->is_csv = true; return 0;
     case KEY_JSON: a->is_json = true; return 0;
+    case KEY_SIMULTANEOUS: a->is_together = true; return 0;
     case ARGP_KEY_ARG:
         if (a->path) {
             argp_error(state, "one results file is wanted, not also %s", text);
@@ -136,6 +138,8 @@ static fw_status report_campaign(const report_arguments *a, const fw_campaign *c
         fw_report_print_json(stdout, c, &answer);
     } else if (a->is_csv) {
         fw_report_print_csv(stdout, c, &answer);
+    } else if (a->is_together) {
+        fw_report_print_simultaneous(stdout, c, &answer);
     } else {
         fw_report_print_table(stdout, c, &answer);
     }

@@ -51,6 +51,21 @@ static const fw_percentile_row *governing_row(const fw_answer *a)
     return NULL;
 }
 
+/* The same with the interval that covers at every point where anything wears, not at this one alone. */
+static void print_together(FILE *to, const fw_answer *a, const fw_percentile_row *governing)
+{
+    char   texts[2][32];
+    size_t n = 0;
+    for (size_t i = 0; i < a->n_percentiles; i++) n += a->percentiles[i].percentile == governing->percentile && a->percentiles[i].depth_mm > 0;
+    if (n < 2 || (isnan(governing->band_low_mm) && isnan(governing->band_high_mm))) return;
+    for (int i = 0; i < 2; i++) {
+        double end = i == 0 ? governing->band_low_mm : governing->band_high_mm;
+        snprintf(texts[i], sizeof texts[i], isnan(end) ? "none" : "%.3g", end);
+    }
+    fprintf(to, "all %zu points together (%g %%): P%g at the governing point [%s, %s] mm\n", n, 100 * a->confidence, governing->percentile, texts[0],
+            texts[1]);
+}
+
 static void print_governing(FILE *to, const fw_answer *a)
 {
     const fw_percentile_row *row = governing_row(a);
@@ -63,6 +78,7 @@ static void print_governing(FILE *to, const fw_answer *a)
     }
     if (isfinite(row->coverage)) fprintf(to, " (%s coverage %.1f %%)", row->method[0] == 'o' ? "attained" : "nominal", 100 * row->coverage);
     fputc('\n', to);
+    print_together(to, a, row);
 }
 
 static void print_life(FILE *to, const fw_answer *a)

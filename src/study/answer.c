@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "study/rows.h"
 #include "study/service_run.h"
+#include "study/simultaneous.h"
 
 /* Options with their defaults put in, and the points they name. */
 typedef struct question {
@@ -97,17 +98,18 @@ static double choose_design_percentile(const fw_campaign *c, const question *q)
     return largest;
 }
 
-static void fill_percentiles(const question *q, size_t i, const fw_window *w, fw_percentile_row *rows)
+static void fill_percentiles(const question *q, size_t i, const fw_window *w, fw_simultaneous *together, fw_percentile_row *rows)
 {
     for (size_t k = 0; k < q->n_percentiles; k++) {
-        double      p = q->percentiles[k] / 100;
-        fw_interval v = fw_window_interval(w, p, q->confidence);
+        const fw_window_level *l = fw_simultaneous_add(together, w, k, q->percentiles[k] / 100);
+        fw_interval            v = fw_window_interval_at(w, l, q->confidence);
         rows[k] = (fw_percentile_row){.point = q->numbers[i],
                                       .bearing_deg = q->bearings[i],
                                       .percentile = q->percentiles[k],
-                                      .depth_mm = fw_window_percentile(w, p),
+                                      .depth_mm = l->depth,
                                       .low_mm = v.low,
                                       .high_mm = v.high,
+                                      .n_effective = fw_window_effective_size(w, l),
                                       .coverage = v.coverage,
                                       .method = fw_window_method(w)};
     }
@@ -224,29 +226,32 @@ static fw_status water_level(fw_answer *a, const fw_campaign *c, const fw_window
 }
 
 /* One point after the other, so that only one point's law is in memory. */
-static fw_status answer_points(fw_answer *a, const question *q, const fw_depth *d, fw_service_run *run, fw_msg *m)
+static fw_status answer_points(fw_answer *a, const question *q, const fw_depth *d, fw_service_run *run, fw_simultaneous *together, fw_msg *m)
 {
     fw_window w;
     for (size_t i = 0; i < q->n_points; i++) {
         FW_TRY(fw_window_make(&w, d, i, m));
-        fill_percentiles(q, i, &w, a->percentiles + i * q->n_percentiles);
+        fill_percentiles(q, i, &w, together, a->percentiles + i * q->n_percentiles);
         fill_point(q, i, &w, &a->points[i]);
         fw_status s = a->n_life ? fill_life(a, run, q, i, &w, m) : FW_OK;
         fw_window_free(&w);
         FW_TRY(s);
     }
-    return FW_OK;
+    return fw_simultaneous_end(together, q->confidence, a->percentiles, m);
 }
 
 /* The governing point's law is made again for the ledger. */
 static fw_status answer(fw_answer *a, const fw_campaign *c, const question *q, const fw_depth *d, const fw_law_factor *law, fw_msg *m)
 {
-    fw_window      w;
-    fw_service_run run;
+    fw_window       w;
+    fw_service_run  run;
+    fw_simultaneous together;
     FW_CHECK(d->n > 0, m, FW_E_FAILURES, "no realisation succeeded (%zu failed): there is nothing to answer from", d->n_failed);
     FW_TRY(allocate(a, c, q, m));
     FW_TRY(fw_service_open(&run, c, q->n_percentiles, q->percentiles, a->design_percentile, q->confidence, law, q->n_points, &a->service, m));
-    fw_status s = answer_points(a, q, d, &run, m);
+    fw_status s = fw_simultaneous_open(&together, d, q->n_percentiles, m);
+    if (s == FW_OK) s = answer_points(a, q, d, &run, &together, m);
+    fw_simultaneous_close(&together);
     fw_service_close(&run);
     FW_TRY(s);
     FW_TRY(answered_width(a, c, q->n_percentiles, m));

@@ -33,6 +33,8 @@ typedef struct fw_percentile_row {
     size_t      point; /* from 1 */
     double      bearing_deg, percentile;
     double      depth_mm, low_mm, high_mm; /* an end that does not exist is NAN */
+    double      band_low_mm, band_high_mm; /* of the intervals that cover at all answered points together (simultaneous.h) */
+    double      n_effective;               /* Kish's effective sample size at the percentile (statistics/averaged.h); order statistics: n; NAN: nothing scatters */
     double      coverage;                  /* attained (order statistics) or nominal (averaged CDF); NAN: no interval */
     const char *method;                    /* "order statistics" (T, direction and scenario constant), or "averaged CDF" (statistics/averaged.h says why
                                             * that and not sectioning) and what it is made with: "control variates" (study/control.h), "randomisations" */

@@ -341,13 +341,16 @@ class Reports(InFolder):
         out = json.loads(call("report", "made.h5", "--json", "--points", "2,1", "--percentiles", "50,90").stdout)
         self.assertEqual({(r["point"], r["percentile"]) for r in out["percentiles"]}, {(1, 50), (1, 90), (2, 50), (2, 90)})
         for row in out["percentiles"]:
-            self.assertLessEqual({"point", "bearing_deg", "percentile", "depth_mm", "low_mm", "high_mm", "coverage"}, set(row))
+            self.assertLessEqual({"point", "bearing_deg", "percentile", "depth_mm", "low_mm", "high_mm", "band_low_mm", "band_high_mm", "n_effective", "coverage"}, set(row))
             self.assertEqual(row["bearing_deg"], 45 * (row["point"] - 1))  # eight points, the first one at 0 deg, clockwise
             if row["low_mm"] is not None:
                 self.assertLessEqual(row["low_mm"], row["depth_mm"])
             if row["high_mm"] is not None:
                 self.assertLessEqual(row["depth_mm"], row["high_mm"])
         self.assertLessEqual({"campaign", "n", "failed", "percentiles", "points", "service_life", "ledger"}, set(out))
+        together = call("report", "made.h5", "--simultaneous")
+        self.assertEqual((together.returncode, together.stderr), (0, ""))
+        self.assertIn("all points together]", together.stdout)
         rows = list(csv.DictReader(call("report", "made.h5", "--csv", "--points", "3", "--percentiles", "50,95").stdout.splitlines()))
         whole = json.loads(call("report", "made.h5", "--json", "--points", "3", "--percentiles", "50,95").stdout)
         self.assertEqual(len(rows), 2)
