@@ -16,6 +16,7 @@ class Results:
     temperatures  (smallest, largest) |T| [K] of a constant or uniform law, else None
     law           name of the first abrasion law
     life          {"service_life", "life_points", "life_fan", "allowance_year", "life_map"}: tables like the two above, those that the file has
+    weights       (realisations) of each in an average, sum 1: those that floewear's own percentiles are made with
     load          its wear load (realisations x arcs), arc k facing [k, k+1) 360/arcs degrees clockwise of the current
     """
 
@@ -40,6 +41,7 @@ class Results:
             load = file["realisations/wear_load"]
             tables = ("service_life", "life_points", "life_fan", "allowance_year", "life_map")
             self.life = {name: read_table(file[name]) for name in tables if name in file}
+            self.weights = _weights(file)
             self.law = read_text(np.atleast_1d(load.attrs["laws"])[0])
             self.load = load[:, 0, :]
             if not self.percentiles["point"].size:
@@ -64,6 +66,17 @@ class Results:
         """Number of the point with the largest depth at the shown percentile."""
         rows = self.percentile(self.shown_percentile())
         return int(rows["point"][int(np.argmax(np.nan_to_num(rows["depth_mm"])))])
+
+
+def _weights(file):
+    """Of files without weights, and of realisations that were left out: 1/n each, and 0."""
+    status = file["realisations/status"][...]
+    if "weights" not in file:
+        return np.full(len(status), 1.0 / max(len(status), 1))
+    ids, table = file["realisations/id"][...], read_table(file["weights"])
+    weights = np.zeros(len(status))
+    weights[np.searchsorted(ids, table["id"].astype(ids.dtype))] = table["weight"]
+    return weights
 
 
 def _law(campaign, sets, section, key):

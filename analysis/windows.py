@@ -15,7 +15,7 @@ N_DEPTHS = 400
 def exceedance(results, point):
     """(depth [mm], P(window depth > depth)) of one point, or None.
 
-    P(D > x) = mean over realisations, sum over directions d of w_d P(|T| < (a L_d / x)^(1/m)),
+    P(D > x) = weighted mean over realisations, sum over directions d of w_d P(|T| < (a L_d / x)^(1/m)),
     with L_d the wear load of the arc that faces the point's bearing when the current flows to d."""
     if not results.directions or results.temperatures is None or results.n_failed or results.law != "bekker2011":
         return None
@@ -26,7 +26,7 @@ def exceedance(results, point):
     for flows_to, share in results.directions:
         theta = (bearing - flows_to - 180.0) % 360.0
         loads.append(results.load[:, int(np.floor(theta * n_arcs / 360.0 + 1e-9)) % n_arcs])
-        weights.append(np.full(n, share / n))
+        weights.append(share * results.weights)
     loads, weights = np.concatenate(loads), np.concatenate(weights)
     warmest, coldest = results.temperatures
 

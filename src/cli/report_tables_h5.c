@@ -5,7 +5,7 @@
 #include "cli/life_tables.h"
 #include "cli/table_builder.h"
 
-enum { N_TABLES = 5, MOST_TABLES = N_TABLES + FW_EFFECTS_TABLES + 2 + FW_LIFE_TABLES };
+enum { N_TABLES = 6, MOST_TABLES = N_TABLES + FW_EFFECTS_TABLES + 2 + FW_LIFE_TABLES };
 
 static void build_percentiles(fw_table_builder *b, const fw_answer *a, fw_msg *m)
 {
@@ -95,6 +95,14 @@ static void build_swept(fw_table_builder *b, const fw_answer *a, fw_msg *m)
     for (size_t i = 0; ring && usual && i < a->n_swept; i++) ring[i] = a->swept_ring.ratio, usual[i] = a->swept_ring.usual;
 }
 
+static void build_weights(fw_table_builder *b, const fw_answer *a, fw_msg *m)
+{
+    fw_table_start(b, "weights", a->n_weights, m);
+    double *id = fw_table_number_column(b, "id", "1", "number of the realisation");
+    double *weight = fw_table_number_column(b, "weight", "1", "weight in every average: the design's, calibrated on the law of scenarios; they sum to 1");
+    for (size_t i = 0; id && weight && i < a->n_weights; i++) id[i] = a->weight_id[i], weight[i] = a->weight[i];
+}
+
 static void build_water_level(fw_table_builder *b, const fw_answer *a, fw_msg *m)
 {
     const fw_water_level *w = &a->water_level;
@@ -116,6 +124,7 @@ fw_status fw_report_write(const char *path, const fw_campaign *c, const fw_recor
     build_life(&builders[2], a, m);
     build_ledger(&builders[3], a, m);
     fw_accuracy_file_build_measured(&builders[4], &a->measured, m);
+    build_weights(&builders[5], a, m);
     if (a->n_swept) build_swept(&builders[n++], a, m);
     if (a->effects.n_rows) fw_effects_tables_build(&builders[n], &a->effects, m), n += FW_EFFECTS_TABLES;
     if (c->after.has_water_level) build_water_level(&builders[n++], a, m);

@@ -98,6 +98,8 @@ typedef struct fw_answer {
     size_t             n_ledger;
     fw_ledger_row     *ledger;
     fw_advice          advice;
+    size_t             n_weights;      /* realisations that the percentiles are made from: those kept that did not fail (depth.h) */
+    double            *weight_id, *weight; /* (n_weights) ids, and weights in every average, which sum to 1; owned */
     size_t             n_swept;        /* n_points, or 0: there is no strip beside it */
     fw_sanity_row     *swept;
     fw_sanity_ring     swept_ring;
