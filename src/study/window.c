@@ -138,8 +138,7 @@ static double own_cdf(const fw_window *w, size_t i, double depth, double ln_dept
     return fmin(sum, 1);
 }
 
-/* values (n) := P(D <= depth) of every realisation; returns their weighted mean. */
-static double own_cdfs(const fw_window *w, double depth, double *values)
+double fw_window_cdfs(const fw_window *w, double depth, double *values)
 {
     double ln_depth = log(depth), sum = 0; /* -inf at 0: only loads of 0 count */
     for (size_t i = 0; i < w->depth->n; i++) {
@@ -184,7 +183,7 @@ static void cdf_at(void *self, double depth, fw_averaged_at *out)
 {
     const fw_window *w = self;
     const fw_depth  *d = w->depth;
-    out->cdf = fmin(own_cdfs(w, depth, d->scratch), 1);
+    out->cdf = fmin(fw_window_cdfs(w, depth, d->scratch), 1);
     bool is_controlled = d->control.is_on && fmin(carriers(w, d->scratch, false), carriers(w, d->scratch, true)) >= FEWEST_CARRIERS;
     out->spread = spread_of(w, out->cdf, is_controlled, d->scratch);
 }
@@ -266,7 +265,7 @@ void fw_window_failure_ends(const fw_window *w, double p, double *low, double *h
 fw_window_scatter fw_window_scatter_at(const fw_window *w, double depth)
 {
     const fw_depth   *d = w->depth;
-    double           *f = d->scratch, mean = own_cdfs(w, depth, f), squares = 0, left = 0, n = (double)d->n;
+    double           *f = d->scratch, mean = fw_window_cdfs(w, depth, f), squares = 0, left = 0, n = (double)d->n;
     fw_window_scatter out;
     for (size_t i = 0; i < d->n; i++) squares += weight_of(w, i) * (f[i] - mean) * (f[i] - mean);
     fw_calibration_residuals(&d->control.calibration, f);
