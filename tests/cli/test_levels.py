@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`floewear plan --levels` through the real program.
 
 usage: test_levels.py PROGRAM SOURCE_DIR
