@@ -98,6 +98,10 @@ void fw_campaign_scenario(const fw_campaign *c, uint64_t id, fw_scenario *out);
 /* The same by plain sampling, whatever the design: what studies of numerics and effects run. */
 void fw_campaign_plain_scenario(const fw_campaign *c, uint64_t id, fw_scenario *out);
 
+/* The strata of the site's scenarios (campaign/strata.h): their number, and that of a scenario. */
+size_t fw_campaign_n_strata(const fw_campaign *c);
+size_t fw_campaign_stratum(const fw_campaign *c, const fw_scenario *s);
+
 /* The law of scenarios itself, as n points whose weights sum to 1: what an average over scenarios is taken with where none of them is
  * simulated. Exact for a joint table without wind and tide and for constants, else n Sobol points. */
 typedef struct fw_scenario_law {

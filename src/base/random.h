@@ -17,6 +17,7 @@ typedef enum fw_purpose {
     FW_STREAM_WIND       = 6, /* id = realisation: speed, angle */
     FW_STREAM_TIDE       = 7, /* id = realisation: phase */
     FW_STREAM_DESIGN     = 8, /* id = randomisation or replicate, part = use << 32 | dimension: 0 scramble, 1 strata, 2 jitter */
+    FW_STREAM_OUTLOOK    = 9, /* id = realisation of a made-up campaign, part = which: its ice */
     FW_STREAM_TEST       = 99
 } fw_purpose;
 

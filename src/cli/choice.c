@@ -10,14 +10,15 @@
 #include "cli/config.h"
 #include "cli/effects_print.h"
 #include "cli/effects_tables.h"
+#include "cli/plan_design.h"
 #include "effects/effects.h"
 #include "study/effects_measured.h"
 
 fw_status fw_choice_path(char *path, size_t size, const char *out, fw_choice_file kind, fw_msg *m)
 {
-    static const char *const ENDS[] = {".accuracy.h5", ".effects.h5", ".h5"};
+    static const char *const ENDS[] = {".accuracy.h5", ".effects.h5", ".plan.h5", ".journal", ".h5"};
     size_t                   n = strlen(out);
-    for (size_t i = 0; i < 3; i++) {
+    for (size_t i = 0; i < sizeof ENDS / sizeof ENDS[0]; i++) {
         size_t k = strlen(ENDS[i]);
         if (n <= k || strcmp(out + n - k, ENDS[i]) != 0) continue;
         n -= k;
@@ -78,6 +79,7 @@ static bool has_numerics(const fw_model *m)
 typedef struct extra {
     fw_choice_sets numerics;
     char           effects[400]; /* "effects={added_mass: off}"; empty: none */
+    char          *design;       /* "sampling={design: ...}"; NULL: none; owned */
 } extra;
 
 /* The campaign again, with the choices' sets after the user's. */
@@ -86,11 +88,12 @@ static fw_status apply(fw_campaign *c, const fw_choice_wanted *w, const extra *x
     const char **all;
     size_t       n = w->n_sets;
     fw_campaign  chosen;
-    if (x->numerics.n == 0 && !x->effects[0]) return FW_OK;
-    FW_TRY(fw_alloc(&all, n + x->numerics.n + 1, sizeof *all, "--set", m));
+    if (x->numerics.n == 0 && !x->effects[0] && !x->design) return FW_OK;
+    FW_TRY(fw_alloc(&all, n + x->numerics.n + 2, sizeof *all, "--set", m));
     for (size_t i = 0; i < n; i++) all[i] = w->sets[i];
     for (size_t i = 0; i < x->numerics.n; i++) all[n++] = x->numerics.text[i];
     if (x->effects[0]) all[n++] = x->effects;
+    if (x->design) all[n++] = x->design;
     fw_status s = fw_config_campaign(&chosen, w->campaign, n, all, w->seed, m);
     free(all);
     FW_TRY(s);
@@ -202,7 +205,35 @@ static fw_status find_effects(const fw_campaign *c, const fw_choice_wanted *w, f
     return FW_OK;
 }
 
-/* ---- both ------------------------------------------------------------------------------------------------------- */
+/* ---- design ------------------------------------------------------------------------------------------------------ */
+
+#define SAY_DESIGN(...) snprintf(out->design_line, sizeof out->design_line, __VA_ARGS__)
+
+static fw_status find_design(const fw_campaign *c, const fw_choice_wanted *w, fw_choice *out, char **set, fw_msg *m)
+{
+    char        path[4096], words[400];
+    fw_msg      why = {""};
+    fw_tables  *t = NULL;
+    struct stat st;
+    if (w->is_planning || !c->sampling.is_auto) return FW_OK;
+    FW_TRY(fw_choice_path(path, sizeof path, w->out ? w->out : c->name, FW_CHOICE_PLAN, m));
+    if (stat(path, &st) != 0) {
+        SAY_DESIGN("design: plain (no %.300s; floewear plan writes it, by a pilot)", path);
+        return FW_OK;
+    }
+    fw_status s = fw_tables_open(&t, path, FW_PLAN_FILETYPE, &why);
+    if (s == FW_OK) s = check_owner(t, path, c, &why);
+    if (s == FW_OK) s = fw_plan_file_read(t, set, words, sizeof words, &why);
+    fw_tables_close(t);
+    FW_CHECK(s != FW_E_NOMEM, m, s, "%s", why.text); /* not to go on with another design for that */
+    if (s == FW_OK)
+        SAY_DESIGN("design: by %.100s, %.380s", path, words);
+    else
+        SAY_DESIGN("design: plain; not used: %.400s", why.text);
+    return FW_OK;
+}
+
+/* ---- all of them ------------------------------------------------------------------------------------------------- */
 
 /* A set that the rules refuse (something else needs what was to be left out) is not taken. */
 static fw_status apply_both(fw_campaign *c, const fw_choice_wanted *w, extra *x, fw_choice *out, fw_msg *m)
@@ -226,7 +257,9 @@ fw_status fw_choice_campaign(fw_campaign *c, const fw_choice_wanted *w, fw_choic
     FW_TRY(fw_config_campaign(c, w->campaign, w->n_sets, w->sets, w->seed, m));
     fw_status s = find_numerics(c, w, out, &x.numerics, m);
     if (s == FW_OK) s = find_effects(c, w, out, x.effects, sizeof x.effects, m);
+    if (s == FW_OK) s = find_design(c, w, out, &x.design, m);
     if (s == FW_OK) s = apply_both(c, w, &x, out, m);
+    free(x.design);
     if (s != FW_OK) fw_campaign_free(c);
     return s;
 }

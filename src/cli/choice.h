@@ -1,5 +1,5 @@
-/* The choices of `floewear accuracy` and `floewear plan --effects` as `run` and `plan` take it: from NAME.accuracy.h5 and NAME.effects.h5 beside the
- * results, or from the file that --accuracy-from names, if it belongs to this very campaign (all settings equal). What it chose is applied like
+/* The choices of `floewear accuracy`, `floewear plan` and `floewear plan --effects` as `run` and `plan` take them: from NAME.accuracy.h5, NAME.plan.h5 and
+ * NAME.effects.h5 beside the results, or from the file that --accuracy-from names, if it belongs to this very campaign (all settings equal). What it chose is applied like
  * --set, so that it stands in the campaign's settings, in its hash, in the journal and in NAME.h5.
  *
  * Effects are left out only under `effects: auto` and an effects_tolerance above 0 (study/effects_ledger.h has the rule): a file that says
@@ -11,9 +11,9 @@
 #include "floewear/campaign.h"
 #include "study/effects_ledger.h"
 
-typedef enum fw_choice_file { FW_CHOICE_ACCURACY, FW_CHOICE_EFFECTS } fw_choice_file;
+typedef enum fw_choice_file { FW_CHOICE_ACCURACY, FW_CHOICE_EFFECTS, FW_CHOICE_PLAN, FW_CHOICE_JOURNAL } fw_choice_file;
 
-/* "results/a.h5", "results/a", "results/a.accuracy.h5" and "results/a.effects.h5" all mean results/a.accuracy.h5, or results/a.effects.h5. */
+/* "results/a.h5", "results/a", "results/a.accuracy.h5" and "results/a.effects.h5" all mean results/a.accuracy.h5, results/a.effects.h5 and so on. */
 fw_status fw_choice_path(char *path, size_t size, const char *out, fw_choice_file kind, fw_msg *m);
 
 typedef struct fw_choice_wanted {
@@ -23,12 +23,15 @@ typedef struct fw_choice_wanted {
     int64_t            seed; /* < 0: the file's */
     const char        *from; /* --accuracy-from; NULL: look beside out */
     const char        *out;  /* stem of the results; NULL: the campaign's name */
+    bool               is_planning; /* a design is about to be chosen: none is taken */
 } fw_choice_wanted;
 
 typedef struct fw_choice {
     bool        is_taken;
     char        line[512]; /* which choice is used and why, for stderr */
     fw_measured measured;  /* the ledger's rows: the file's, else the Raahe campaign's */
+
+    char design_line[512]; /* how scenarios are drawn and why, for stderr; empty: there is nothing to say */
 
     char              effects_line[512]; /* which effects are left out and why, or why none is; empty: there is nothing to say */
     uint32_t          dropped;           /* fw_effect_bit set */

@@ -1,9 +1,8 @@
 /* `floewear plan CAMPAIGN.yaml`: what a run would do and cost, measured on a pilot of its first realisations; no results. */
 #include <argp.h>
-#include <gsl/gsl_cdf.h>
-#include <gsl/gsl_randist.h>
 #include <math.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 
 #include "cli/choice.h"
 #include "cli/commands.h"
@@ -12,8 +11,10 @@
 #include "cli/effects_print.h"
 #include "cli/json.h"
 #include "cli/output.h"
+#include "cli/plan_design.h"
 #include "cli/plan_effects.h"
 #include "cli/plan_levels.h"
+#include "cli/plan_strip.h"
 #include "effects/effects.h"
 #include "floewear/campaign.h"
 #include "realisation/accuracy.h"
@@ -88,7 +89,7 @@ static error_t parse(int key, char *arg, struct argp_state *state)
 }
 
 static const struct argp_option OPTIONS[] = {
-    {"pilot", KEY_PILOT, "N", 0, "realisations of the pilot (default: up to 16, as long as they are expected to take minutes; 0: none)", 0},
+    {"pilot", KEY_PILOT, "N", 0, "realisations of the pilot (default: up to 64, as long as they are not expected to take more than minutes; 0: none)", 0},
     {"effects", KEY_EFFECTS, NULL, 0, "measure instead what each effect and open choice moves and costs, on the same ice; writes OUT.effects.h5, which run, plan and report of this campaign show", 1},
     {"effects-budget", KEY_BUDGET, "TIME", 0, "choose the number of windows for about this much CPU time (default 5min)", 1},
     {"effects-whole", KEY_WHOLE, "N", 0, "N whole windows of the campaign instead of short ones: what those are to be checked against", 1},
@@ -106,7 +107,7 @@ static const struct argp ARGP = {OPTIONS,
                                  parse,
                                  "CAMPAIGN.yaml",
                                  "Shows the effects the scenes call for and why, the accuracy settings, and the cost "
-                                 "and precision that a pilot predicts. Writes no results; with --effects the measured effects ledger.",
+                                 "and precision that a pilot predicts, and which sampling design pays; writes OUT.plan.h5, which run takes it from. Writes no results; with --effects the measured effects ledger.",
                                  NULL,
                                  NULL,
                                  NULL};
@@ -132,61 +133,6 @@ static fw_status expect(const fw_campaign *c, expected *e, fw_msg *m)
 
 /* About what a core of 2020 does in a second, at 40 to 80 % ice. */
 static const double EVALUATIONS_PER_S = 1.3e7;
-enum { USUAL_PILOT = 16 };
-static const double PILOT_S = 200; /* expected of all its windows */
-
-typedef struct pilot {
-    size_t n, n_failed, n_wear;
-    double cpu, cpu_max;     /* [s] mean and largest */
-    double mean_log, sd_log; /* of ln(mean wear load over the ring) */
-    double mean_speed;       /* [m/s] */
-} pilot;
-
-/* n < 0: the usual number, but no more than PILOT_S. */
-static fw_status run_pilot(const fw_campaign *c, long n, pilot *p, fw_msg *m)
-{
-    double sum = 0, sum2 = 0, evaluations = 0;
-    size_t most = n < 0 ? USUAL_PILOT : (size_t)n;
-    for (size_t id = 0; id < most; id++) {
-        fw_scenario s;
-        fw_record   r;
-        double      one;
-        fw_campaign_scenario(c, id, &s);
-        FW_TRY(fw_cost_expected(&c->model, &s, &one, m));
-        evaluations += one;
-        if (n < 0 && evaluations > PILOT_S * EVALUATIONS_PER_S) break;
-        FW_TRY(fw_realise(&c->model, &s, NULL, &r, m));
-        p->n++;
-        p->cpu += r.host_cpu_s;
-        p->cpu_max = fmax(p->cpu_max, r.host_cpu_s);
-        p->mean_speed += r.speed;
-        double load = 0;
-        for (size_t k = 0; k < r.n_arcs; k++) load += fw_record_load(&r, 0, FW_RING_LOAD)[k];
-        if (r.status != FW_OK)
-            p->n_failed++;
-        else if (load > 0) {
-            double l = log(load);
-            p->n_wear++, sum += l, sum2 += l * l;
-        }
-        fw_record_free(&r);
-    }
-    if (p->n) p->cpu /= (double)p->n, p->mean_speed /= (double)p->n;
-    if (p->n_wear > 1) {
-        double k = (double)p->n_wear;
-        p->mean_log = sum / k, p->sd_log = sqrt(fmax(0, (sum2 - sum * sum / k) / (k - 1)));
-    }
-    return FW_OK;
-}
-
-/* Relative half-width of a percentile of a lognormal from n samples: z sqrt(q (1 - q) / n) / (f(x) x), f(x) x = phi(z_q) / sd.
- * Averaging over temperature and direction makes the truth narrower. */
-static double predicted_half_width(const fw_campaign *c, const pilot *p, double n)
-{
-    double z = gsl_cdf_ugaussian_Pinv(0.5 + 0.5 * c->precision.confidence);
-    if (c->precision.quantity == FW_QUANTITY_MEAN) return z * sqrt(expm1(p->sd_log * p->sd_log) / n);
-    double q = c->precision.percentile / 100;
-    return z * sqrt(q * (1 - q) / n) * p->sd_log / gsl_ran_ugaussian_pdf(gsl_cdf_ugaussian_Pinv(q));
-}
 
 /* On or off, and why (FW_REASON_SIZE): the rule's own words, or that the file overrides them. */
 static bool effect_state(const fw_campaign *c, const fw_scene_facts *f, const fw_choice *choice, const fw_effect *e, char *reason)
@@ -204,28 +150,8 @@ static bool effect_state(const fw_campaign *c, const fw_scene_facts *f, const fw
     return is_on;
 }
 
-typedef struct forecast {
-    double n, half_width, cpu_s,
-        n_wanted; /* realisations of the run, what they reach, cost; realisations that the precision wants */
-} forecast;
-
-static forecast predict(const fw_campaign *c, const pilot *p)
-{
-    forecast f = {.n = (double)c->precision.max_realisations, .half_width = NAN, .n_wanted = NAN};
-    if (p->n_wear > 1) {
-        double one = predicted_half_width(c, p, 1);
-        if (c->precision.half_width > 0) {
-            f.n_wanted = ceil(one * one / (c->precision.half_width * c->precision.half_width));
-            f.n = fmin(f.n, fmax(f.n_wanted, 100));
-        }
-        f.half_width = one / sqrt(f.n);
-    }
-    f.cpu_s = p->n ? f.n * p->cpu : NAN;
-    return f;
-}
-
-static void print_json(const fw_campaign *c, const fw_scene_facts *facts, const fw_choice *choice, const expected *of, const pilot *p,
-                       const forecast *f, double speed)
+static void print_json(const fw_campaign *c, const fw_scene_facts *facts, const fw_choice *choice, const expected *of, const fw_plan_strip *strip,
+                       const fw_outlook *x, const fw_plan_forecast *f, double speed)
 {
     fw_json                 j = fw_json_onto(stdout);
     const fw_effect *const *e;
@@ -266,21 +192,8 @@ static void print_json(const fw_campaign *c, const fw_scene_facts *facts, const 
     fw_json_key(&j, "force_evaluations_mean"), fw_json_number(&j, of->mean);
     fw_json_key(&j, "force_evaluations_most"), fw_json_number(&j, of->most);
     fw_json_end(&j);
-    fw_json_key(&j, "pilot");
-    fw_json_begin_object(&j);
-    fw_json_key(&j, "n"), fw_json_integer(&j, (int64_t)p->n);
-    fw_json_key(&j, "failed"), fw_json_integer(&j, (int64_t)p->n_failed);
-    fw_json_key(&j, "cpu_s_mean"), fw_json_number(&j, p->n ? p->cpu : NAN);
-    fw_json_key(&j, "cpu_s_max"), fw_json_number(&j, p->n ? p->cpu_max : NAN);
-    fw_json_key(&j, "sd_of_log_load"), fw_json_number(&j, p->n_wear > 1 ? p->sd_log : NAN);
-    fw_json_end(&j);
-    fw_json_key(&j, "predicted");
-    fw_json_begin_object(&j);
-    fw_json_key(&j, "realisations"), fw_json_number(&j, f->n);
-    fw_json_key(&j, "realisations_wanted"), fw_json_number(&j, f->n_wanted);
-    fw_json_key(&j, "half_width"), fw_json_number(&j, f->half_width);
-    fw_json_key(&j, "cpu_s"), fw_json_number(&j, f->cpu_s);
-    fw_json_end(&j);
+    fw_plan_strip_json(&j, c, strip);
+    fw_plan_design_json(&j, c, x, f);
     fw_json_key(&j, "not_applied");
     fw_json_begin_array(&j);
     for (size_t i = 0; i < c->n_not_applied; i++) fw_json_string(&j, c->not_applied[i]);
@@ -316,9 +229,8 @@ static void print_effects(const fw_campaign *c, const fw_scene_facts *facts, con
 }
 
 static void print_text(const arguments *a, const fw_campaign *c, const fw_scene_facts *facts, const fw_choice *choice, const expected *of,
-                       const pilot *p, const forecast *f, double speed)
+                       const fw_plan_strip *strip, const fw_outlook *x, const fw_plan_forecast *f, double speed)
 {
-    size_t wanted = a->pilot < 0 ? USUAL_PILOT : (size_t)a->pilot;
     printf("plan of campaign %s\n\n", c->name);
     print_effects(c, facts, choice);
     fw_accuracy_line lines[16];
@@ -332,51 +244,74 @@ static void print_text(const arguments *a, const fw_campaign *c, const fw_scene_
         printf("  one that takes more than %.3g fails (exposure.max_force_evaluations)\n", c->model.max_evaluations);
     else
         printf("  one that takes more than 100 times what is expected of it and than 1e9 fails (exposure.max_force_evaluations: auto)\n");
-    if (p->n < wanted) printf("\npilot: %s; --pilot %zu runs %zu all the same\n", p->n ? "cut short, its next window may take minutes" : "none, its first window may take minutes", wanted, wanted);
-    if (p->n) {
-        printf("\npilot of %zu realisations: %.3g CPU s each in the mean, %.3g at most, %zu failed\n", p->n, p->cpu,
-               p->cpu_max, p->n_failed);
-        if (p->n_wear > 1)
-            printf("  spread between windows: %.2f in the log of the wear load over the ring\n", p->sd_log);
-        printf("\npredicted\n");
-        if (isfinite(f->n_wanted))
-            printf("  %.0f realisations reach a half-width of %.3g %%", f->n_wanted, 100 * c->precision.half_width);
-        if (isfinite(f->n_wanted))
-            printf(f->n_wanted > (double)c->precision.max_realisations ? ": more than max_realisations\n" : "\n");
-        printf("  a run of %.0f realisations costs %.3g CPU s: %.3g s on 1 core, %.3g s on 2, %.3g s on 16", f->n,
-               f->cpu_s, f->cpu_s, f->cpu_s / 2, f->cpu_s / 16);
-        if (isfinite(f->half_width)) printf("; half-width about %.2g %%", 100 * f->half_width);
-        printf("\n  (lognormal spread of the pilot; averaging over temperature and direction can only make it "
-               "narrower)\n");
-    }
+    fw_plan_strip_print(stdout, c, strip);
+    fw_plan_design_print(stdout, c, x, f, fw_plan_pilot_size(c, a->pilot));
     for (size_t i = 0; i < c->n_not_applied; i++)
         printf("%s%s is read and checked but not applied in this version\n", i ? "" : "\n", c->not_applied[i]);
+}
+
+/* The choice is for `run`, unless there is none to make, or a journal whose design stands. */
+static fw_status store_choice(const arguments *a, const fw_campaign *c, const fw_outlook *x, const fw_plan_forecast *f, size_t n, const fw_record *pilot,
+                              fw_msg *m)
+{
+    char        path[4096], journal[4096];
+    fw_campaign bare;
+    struct stat there;
+    if (!x->is_known || !c->sampling.is_auto) return FW_OK;
+    FW_TRY(fw_choice_path(path, sizeof path, a->out ? a->out : c->name, FW_CHOICE_PLAN, m));
+    FW_TRY(fw_choice_path(journal, sizeof journal, a->out ? a->out : c->name, FW_CHOICE_JOURNAL, m));
+    if (stat(journal, &there) == 0) {
+        if (!a->is_quiet) fprintf(stderr, "%s is there: it goes on by its own design, and the choice is not stored\n", journal);
+        return FW_OK;
+    }
+    FW_TRY(fw_config_campaign(&bare, a->campaign, a->n_sets, a->sets, a->seed, m));
+    fw_status s = fw_plan_file_write(path, &bare, x, f, n, pilot, m);
+    fw_campaign_free(&bare);
+    if (s == FW_OK && !a->is_quiet) fprintf(stderr, "%s: run takes this design\n", path);
+    return s;
+}
+
+static double mean_speed(const fw_campaign *c, size_t n, const fw_record *pilot)
+{
+    fw_scenario first;
+    double      sum = 0;
+    fw_campaign_plain_scenario(c, 0, &first);
+    for (size_t i = 0; i < n; i++) sum += pilot[i].speed / (double)n;
+    return n ? sum : first.speed;
 }
 
 static fw_status plan(const arguments *a, fw_msg *m)
 {
     fw_campaign      c = {0};
-    pilot            p = {0};
+    fw_record       *pilot = NULL;
+    size_t           n = 0;
+    fw_outlook       x = {0};
+    fw_plan_strip    strip = {0};
     expected         e = {0, 0};
     fw_choice        choice;
     fw_scene_facts   facts;
     fw_choice_wanted wanted = {
-        .campaign = a->campaign, .n_sets = a->n_sets, .sets = a->sets, .seed = a->seed, .from = a->accuracy_from, .out = a->out};
+        .campaign = a->campaign, .n_sets = a->n_sets, .sets = a->sets, .seed = a->seed, .from = a->accuracy_from, .out = a->out, .is_planning = true};
     FW_TRY(fw_choice_campaign(&c, &wanted, &choice, m));
     fw_status s = fw_facts_campaign(&c.model, &c.site, &facts, m);
     if (s == FW_OK) s = expect(&c, &e, m);
-    if (s == FW_OK) s = run_pilot(&c, a->pilot, &p, m);
+    if (s == FW_OK) s = fw_plan_strip_make(&strip, &c, m);
+    if (s == FW_OK) s = fw_plan_pilot(&c, a->pilot, a->is_quiet, &pilot, &n, m);
+    if (s == FW_OK) s = fw_plan_outlook(&x, &c, n, pilot, a->is_quiet, m);
     if (s == FW_OK) {
-        fw_scenario sc;
-        fw_campaign_scenario(&c, 0, &sc);
-        forecast f = predict(&c, &p);
-        double   speed = p.n ? p.mean_speed : sc.speed;
+        fw_plan_forecast f = fw_plan_forecast_make(&c, &x);
+        double           speed = mean_speed(&c, n, pilot);
+        s = store_choice(a, &c, &x, &f, n, pilot, m);
         if (a->is_json)
-            print_json(&c, &facts, &choice, &e, &p, &f, speed);
+            print_json(&c, &facts, &choice, &e, &strip, &x, &f, speed);
         else
-            print_text(a, &c, &facts, &choice, &e, &p, &f, speed);
-        s = fw_output_finish(m);
+            print_text(a, &c, &facts, &choice, &e, &strip, &x, &f, speed);
+        if (s == FW_OK) s = fw_output_finish(m);
     }
+    fw_outlook_free(&x);
+    fw_plan_strip_free(&strip);
+    for (size_t i = 0; i < n; i++) fw_record_free(&pilot[i]);
+    free(pilot);
     fw_campaign_free(&c);
     return s;
 }

@@ -218,6 +218,7 @@ static fw_status run_campaign(run_session *s, const run_arguments *a, fw_msg *m)
 
     if (c->precision.half_width > 0.0) run.stop = (fw_stop_rule){.look = run_look, .self = s};
     if (!a->is_quiet) fprintf(stderr, "%s\n", s->choice.line);
+    if (s->choice.design_line[0] && !a->is_quiet) fprintf(stderr, "%s\n", s->choice.design_line);
     if (s->choice.effects_line[0] && (!a->is_quiet || s->choice.dropped)) fprintf(stderr, "%s\n", s->choice.effects_line);
     fw_progress_line_start(&s->line, stderr, a->is_quiet);
     if (s->files.n_have && !a->is_quiet) {

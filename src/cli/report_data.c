@@ -111,6 +111,8 @@ static void json_points(fw_json *j, const fw_answer *a)
         number(j, "path_km", row->path_km);
         number(j, "impact_share", row->impact_share);
         number(j, "high_share", row->high_share);
+        string(j, "dominated_by", row->dominated_by);
+        number(j, "dominating_amount", row->dominating_amount);
         fw_json_end(j);
     }
     fw_json_end(j);
@@ -212,8 +214,21 @@ static void json_ledger(fw_json *j, const fw_answer *a)
         string(j, "shrinks_with", row->shrinks_with);
         string(j, "cost_to_halve", row->cost_to_halve);
         number(j, "cost_to_halve_cpu_s", row->cost_to_halve_cpu_s);
+        fw_json_key(j, "is_sum"), fw_json_bool(j, row->is_sum);
         fw_json_end(j);
     }
+    fw_json_end(j);
+}
+
+static void json_advice(fw_json *j, const fw_answer *a)
+{
+    const fw_advice *v = &a->advice;
+    fw_json_key(j, "advice");
+    fw_json_begin_object(j);
+    number(j, "doubt", v->total);
+    string(j, "largest", v->largest < a->n_ledger ? a->ledger[v->largest].row : "");
+    string(j, "best_paid", v->best_paid < a->n_ledger ? a->ledger[v->best_paid].row : "");
+    number(j, "doubt_after", v->total_after);
     fw_json_end(j);
 }
 
@@ -297,6 +312,7 @@ void fw_report_print_json(FILE *to, const fw_campaign *c, const fw_answer *a)
         json_years(&j, a);
     }
     json_ledger(&j, a);
+    json_advice(&j, a);
     json_swept(&j, a);
     fw_json_key(&j, "effects_ledger"), fw_effects_json_rows(&j, &a->effects);
     fw_json_key(&j, "effects_measured"), fw_json_string(&j, a->effects.n_rows ? a->effects.origin : "nowhere");

@@ -1,3 +1,4 @@
+#include "cli/report_summary.h"
 #include "cli/report_table.h"
 
 #include <inttypes.h>
@@ -69,13 +70,15 @@ static void print_share(FILE *to, double share)
     }
 }
 
-static void print_heading(FILE *to, const fw_campaign *c, const fw_answer *a)
+/* The ledger's largest row at the point. */
+static void print_doubt(FILE *to, const fw_point_row *p)
 {
-    double window = c->model.window;
-    fprintf(to, "%s: %" PRIu64 " realisations of %g %s", c->name, a->n, window >= 3600 ? window / 3600 : window,
-            window >= 3600 ? "h" : "s");
-    if (a->n_failed) fprintf(to, ", %" PRIu64 " failed (0 in the lower, infinite in the upper ends)", a->n_failed);
-    fprintf(to, ", seed %" PRIu64 "\n", c->seed);
+    if (isnan(p->dominating_amount))
+        fprintf(to, "  -\n");
+    else if (isfinite(p->dominating_amount))
+        fprintf(to, "  %s %.2g %%\n", p->dominated_by, 100 * p->dominating_amount);
+    else
+        fprintf(to, "  %s\n", p->dominated_by);
 }
 
 static void print_points(FILE *to, const fw_answer *a)
@@ -93,7 +96,7 @@ static void print_points(FILE *to, const fw_answer *a)
         snprintf(text, sizeof text, "P%g", a->percentiles[k].percentile);
         fprintf(to, "  %-20s", text);
     }
-    fprintf(to, "  impact   >5 MPa  path\n");
+    fprintf(to, "  impact   >5 MPa  path       most doubt\n");
     for (size_t i = 0; i < a->n_points; i++) {
         const fw_point_row *p = &a->points[i];
         fprintf(to, "%5zu %6.1f   %-5s", p->point, p->bearing_deg,
@@ -105,39 +108,9 @@ static void print_points(FILE *to, const fw_answer *a)
         }
         print_share(to, p->impact_share);
         print_share(to, p->high_share);
-        fprintf(to, "  %.3g m\n", 1000 * p->path_km);
-    }
-}
-
-/* The design number, what it is worth, and whether the precision that was asked for is there. */
-static void print_governing(FILE *to, const fw_campaign *c, const fw_answer *a)
-{
-    for (size_t i = 0; i < a->n_percentiles; i++) {
-        const fw_percentile_row *row = &a->percentiles[i];
-        if (row->point != a->governing_point || row->percentile != a->design_percentile) continue;
-        fprintf(to, "\ngoverning: point %zu (%g deg), P%g = %.3g mm in one window", row->point, row->bearing_deg,
-                row->percentile, row->depth_mm);
-        if (isfinite(row->low_mm) && isfinite(row->high_mm)) {
-            fprintf(to, ", %g %% interval [%.3g, %.3g] mm", 100 * a->confidence, row->low_mm, row->high_mm);
-        } else {
-            fprintf(to, "; %" PRIu64 " realisations are too few for both ends of an interval", a->n);
-        }
-        if (isfinite(row->coverage))
-            fprintf(to, " (%s coverage %.1f %%)", row->method[0] == 'o' ? "attained" : "nominal", 100 * row->coverage);
-        fputc('\n', to);
-        break;
-    }
-    if (!(c->precision.half_width > 0)) return;
-    char quantity[32] = "mean";
-    if (c->precision.quantity == FW_QUANTITY_PERCENTILE)
-        snprintf(quantity, sizeof quantity, "P%g", c->precision.percentile);
-    if (c->precision.quantity == FW_QUANTITY_PERCENTILE && a->design_percentile != c->precision.percentile) return;
-    fprintf(to, "precision: %s asked to +- %.3g %%, reached ", quantity, 100 * c->precision.half_width);
-    if (isfinite(a->half_width)) {
-        fprintf(to, "+- %.3g %% at the worst of the points%s\n", 100 * a->half_width,
-                a->half_width <= c->precision.half_width ? "" : " (not enough realisations)");
-    } else {
-        fprintf(to, "none yet (not enough realisations)\n");
+        snprintf(text, sizeof text, "%.3g m", 1000 * p->path_km);
+        fprintf(to, "  %-9s", text);
+        print_doubt(to, p);
     }
 }
 
@@ -315,9 +288,9 @@ static void print_limits(FILE *to, const fw_campaign *c)
 
 void fw_report_print_table(FILE *to, const fw_campaign *c, const fw_answer *a)
 {
-    print_heading(to, c, a);
+    fw_report_print_summary(to, c, a);
     print_points(to, a);
-    print_governing(to, c, a);
+    fputc('\n', to);
     print_swept(to, a);
     print_water_level(to, c, a);
     print_life(to, c, a);

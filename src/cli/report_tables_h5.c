@@ -34,6 +34,9 @@ static void build_points(fw_table_builder *b, const fw_answer *a, fw_msg *m)
     FW_TABLE_NUMBERS(b, a->points, fw_point_row, path_km, "km", "mean sliding path in one window");
     FW_TABLE_NUMBERS(b, a->points, fw_point_row, impact_share, "1", "share of the wear from impact");
     FW_TABLE_NUMBERS(b, a->points, fw_point_row, high_share, "1", "share of the wear at pressures above 5 MPa");
+    const char **dominated_by = fw_table_texts(b, "dominated_by", "largest row of the ledger in the point's design percentile");
+    for (size_t i = 0; dominated_by && i < a->n_points; i++) dominated_by[i] = a->points[i].dominated_by;
+    FW_TABLE_NUMBERS(b, a->points, fw_point_row, dominating_amount, "1", "its relative amount; NaN: the percentile is 0");
 }
 
 static void build_life(fw_table_builder *b, const fw_answer *a, fw_msg *m)
@@ -61,6 +64,8 @@ static void build_ledger(fw_table_builder *b, const fw_answer *a, fw_msg *m)
     const char **row = fw_table_texts(b, "row", "source of error");
     FW_TABLE_NUMBERS(b, a->ledger, fw_ledger_row, amount, "1",
                      "relative amount in the governing design number; NaN: not measured");
+    double *is_sum = fw_table_number_column(b, "is_sum", "1", "1: the sum of the rows behind it");
+    for (size_t i = 0; is_sum && i < a->n_ledger; i++) is_sum[i] = a->ledger[i].is_sum;
     const char **shrinks = fw_table_texts(b, "shrinks_with", "what shrinks it");
     const char **cost = fw_table_texts(b, "cost_to_halve", "what shrinking it by half would cost");
     FW_TABLE_NUMBERS(b, a->ledger, fw_ledger_row, cost_to_halve_cpu_s, "s",

@@ -21,6 +21,9 @@ static fw_design design_of(int word)
 
 static const char ALLOCATION[] = "sampling.allocation", POINTS[] = "precision.points";
 
+/* A stratum that is met once in a million times as it should be is one that is never met. */
+static const double MOST_WEIGHT = 1e6;
+
 /* Shares of the realisations, divided by their sum. A stratum that happens must be drawn. */
 static fw_status read_allocation(const fw_reader *r, const fw_node *n, const fw_model *model, const fw_site *site, fw_sampling *out)
 {
@@ -43,7 +46,13 @@ static fw_status read_allocation(const fw_reader *r, const fw_node *n, const fw_
         if (!happens) out->allocation[i] = 0;
         sum += out->allocation[i];
     }
-    for (size_t i = 0; i < strata.n; i++) out->allocation[i] /= sum;
+    if (!isfinite(sum)) return fw_yaml_fail(n, r->m, "%s: these shares do not add up to a number", ALLOCATION);
+    for (size_t i = 0; i < strata.n; i++) {
+        out->allocation[i] /= sum;
+        if (out->allocation[i] < fw_strata_share(&strata, i) / MOST_WEIGHT)
+            return fw_yaml_fail(n->values[i], r->m, "%s: stratum %zu is drawn %.2g times as often as the site has it, wanted at least %g times", ALLOCATION, i + 1,
+                                out->allocation[i] / fw_strata_share(&strata, i), 1 / MOST_WEIGHT);
+    }
     return FW_OK;
 }
 

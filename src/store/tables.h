@@ -1,4 +1,4 @@
-/* Files of finished tables (NAME.accuracy.h5, NAME.effects.h5), and single tables read back from them or from NAME.h5.
+/* Files of finished tables (NAME.accuracy.h5, NAME.effects.h5, NAME.plan.h5), and single tables read back from them or from NAME.h5.
  *
  * Root attributes, groups, units and long_name as in NAME.h5 (store/results.h); sealed and renamed like it. */
 #ifndef FW_STORE_TABLES_H
@@ -8,6 +8,7 @@
 
 #define FW_ACCURACY_FILETYPE "floewear accuracy"
 #define FW_EFFECTS_FILETYPE  "floewear effects"
+#define FW_PLAN_FILETYPE     "floewear plan"
 
 /* Another kind of file under this name is somebody's work: FW_E_MISMATCH. */
 fw_status fw_tables_check_kind(const char *path, const char *filetype, fw_msg *m);

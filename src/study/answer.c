@@ -264,6 +264,7 @@ static fw_status answer(fw_answer *a, const fw_campaign *c, const question *q, c
     size_t at = (size_t)(governing - a->percentiles) / q->n_percentiles;
     FW_TRY(fw_window_make(&w, d, at, m));
     s = fw_ledger_rows(a, c, &w, governing, law, at, m);
+    if (s == FW_OK) fw_ledger_advise(a, q->n_percentiles);
     if (s == FW_OK && c->after.has_water_level) s = water_level(a, c, &w, m);
     fw_window_free(&w);
     return s;
@@ -386,19 +387,24 @@ static fw_status measure_reached(const fw_campaign *c, const fw_depth *d, fw_rea
 
 fw_status fw_answer_reached(const fw_campaign *c, const fw_answer_source *source, fw_reached *out, fw_msg *m)
 {
-    fw_depth  d;
     fw_sanity strip;
-    double   *bearings = NULL;
-    size_t    n = 0;
+    fw_status s = fw_sanity_begin(&strip, c, 0, m);
+    if (s == FW_OK) s = fw_answer_reached_beside(c, source, &strip, out, m);
+    fw_sanity_free(&strip);
+    return s;
+}
+
+fw_status fw_answer_reached_beside(const fw_campaign *c, const fw_answer_source *source, fw_sanity *strip, fw_reached *out, fw_msg *m)
+{
+    fw_depth d;
+    double  *bearings = NULL;
+    size_t   n = 0;
     *out = (fw_reached){.half_width = INFINITY, .value_mm = NAN, .vov = NAN, .point = 1};
     memset(&d, 0, sizeof d);
-    memset(&strip, 0, sizeof strip);
     fw_status s = asked_points(c, &bearings, &n, m);
     if (s == FW_OK) s = fw_depth_make(&d, c, 0, n, bearings, m);
-    if (s == FW_OK) s = fw_sanity_begin(&strip, c, 0, m);
-    if (s == FW_OK) s = collect(&d, &strip, c, source, m);
+    if (s == FW_OK) s = collect(&d, strip, c, source, m);
     if (s == FW_OK && d.n > 0) s = measure_reached(c, &d, out, m); /* with nothing but failures the width stays infinite */
-    fw_sanity_free(&strip);
     fw_depth_free(&d);
     free(bearings);
     return s;

@@ -42,6 +42,8 @@ typedef struct fw_percentile_row {
 typedef struct fw_point_row {
     size_t point;
     double bearing_deg, mean_mm, mean_low_mm, mean_high_mm, path_km, impact_share, high_share; /* high: above 5 MPa */
+    char   dominated_by[48];  /* the ledger's largest row in this point's design percentile: its own sampling and failed runs, the rest as at the governing point */
+    double dominating_amount; /* of that row, relative; NAN: the percentile is 0 */
 } fw_point_row;
 
 typedef struct fw_life_row {
@@ -59,7 +61,16 @@ typedef struct fw_ledger_row {
     double amount;                              /* relative amount in the governing design number; NAN: not measured */
     char   shrinks_with[224], cost_to_halve[128]; /* no clock in them: the same for every run of a campaign */
     double cost_to_halve_cpu_s;                 /* on the machines that computed the records; NAN: not measured */
+    bool   is_sum;                              /* of the rows behind it */
+    bool   is_scatter;                          /* what is, not what is not known: years that differ, windows that resemble each other */
 } fw_ledger_row;
+
+/* What to do about the largest doubts in the governing number. Indices into the ledger; n_ledger: there is none. */
+typedef struct fw_advice {
+    size_t largest;   /* amount among the rows that are no sums and no scatter */
+    size_t best_paid; /* most of the number's total error, rows added in squares, taken off per CPU second if that row is halved */
+    double total, total_after; /* relative: now, and with that row halved */
+} fw_advice;
 
 /* The factor on the law's rate: its scatter as the campaign gives it, and at the governing point what is not known of coefficient and exponent. */
 typedef struct fw_law_scatter {
@@ -84,6 +95,7 @@ typedef struct fw_answer {
     fw_effects_ledger  effects;  /* what its rows of switched-off effects are made from */
     size_t             n_ledger;
     fw_ledger_row     *ledger;
+    fw_advice          advice;
     size_t             n_swept;        /* n_points, or 0: there is no strip beside it */
     fw_sanity_row     *swept;
     fw_sanity_ring     swept_ring;
@@ -112,5 +124,7 @@ typedef struct fw_reached {
 } fw_reached;
 #define FW_ANSWER_MOST_VOV 0.1
 fw_status fw_answer_reached(const fw_campaign *c, const fw_answer_source *source, fw_reached *out, fw_msg *m);
+/* The same with a strip of the first law that is there already (sanity.h); records are added to it. */
+fw_status fw_answer_reached_beside(const fw_campaign *c, const fw_answer_source *source, fw_sanity *strip, fw_reached *out, fw_msg *m);
 
 #endif

@@ -48,20 +48,23 @@ double fw_depth_ring_mean(const fw_depth *d, size_t point, int ring)
     return d->weight > 0 ? sum / d->weight : 0;
 }
 
-/* Every second kept record goes: those whose number is odd in the coarser count. */
+/* Every second kept record goes: those whose number is odd in the coarser count. By randomisation: every second id of all would take whole randomisations
+ * away, and with them what intervals are made from. */
 static void thin(fw_depth *d)
 {
-    size_t n_used = d->directions.n_used, n = (d->n + 1) / 2;
-    for (size_t i = 1; i < n; i++) {
-        d->row[i] = d->row[2 * i];
-        memcpy(d->load + i * n_used, d->load + 2 * i * n_used, n_used * sizeof *d->load);
-        if (d->ln_load) memcpy(d->ln_load + i * n_used, d->ln_load + 2 * i * n_used, n_used * sizeof *d->ln_load);
+    size_t n_used = d->directions.n_used, n = 0;
+    d->stride *= 2;
+    for (size_t i = 0; i < d->n; i++) {
+        if (d->row[i].number % d->stride) continue;
+        d->row[n] = d->row[i];
+        memmove(d->load + n * n_used, d->load + i * n_used, n_used * sizeof *d->load);
+        if (d->ln_load) memmove(d->ln_load + n * n_used, d->ln_load + i * n_used, n_used * sizeof *d->ln_load);
+        n++;
     }
     d->n = n;
-    d->stride *= 2;
 }
 
-static fw_status keep(fw_depth *d, const fw_record *r, size_t direction_law, double ring_load, fw_msg *m)
+static fw_status keep(fw_depth *d, const fw_record *r, size_t direction_law, double ring_load, uint64_t number, fw_msg *m)
 {
     const fw_directions *q = &d->directions;
     const double        *ring = fw_record_load(r, d->law, FW_RING_LOAD);
@@ -80,7 +83,8 @@ static fw_status keep(fw_depth *d, const fw_record *r, size_t direction_law, dou
                                                .randomisation = (int32_t)r->randomisation},
                                   .ring_load = ring_load,
                                   .thickness = r->wear_thickness,
-                                  .direction_law = (uint32_t)direction_law};
+                                  .direction_law = (uint32_t)direction_law,
+                                  .number = number};
     double *load = d->load + d->n * q->n_used;
     for (size_t k = 0; k < q->n_used; k++) load[k] = ring[q->used[k]];
     if (!d->scale.is_discrete) {
@@ -137,7 +141,10 @@ fw_status fw_depth_add(fw_depth *d, const fw_record *r, fw_msg *m)
     size_t law = d->directions.n_laws == 1 ? 0 : (size_t)r->cell;
     double ring_load = 0;
     FW_TRY(add_rings(d, r, law, &ring_load, m));
-    if (d->n_good % d->stride == 0) FW_TRY(keep(d, r, law, ring_load, m));
+    size_t randomisation = (size_t)(r->randomisation + 1);
+    FW_TRY(fw_grow(&d->n_seen, &d->capacity_seen, randomisation + 1, sizeof *d->n_seen, "records of randomisations", m));
+    uint64_t number = d->n_seen[randomisation]++;
+    if (number % d->stride == 0) FW_TRY(keep(d, r, law, ring_load, number, m));
     d->n_good++;
     d->weight += r->weight;
     d->truncation += r->energy_truncation;
@@ -212,6 +219,7 @@ void fw_depth_free(fw_depth *d)
     fw_control_free(&d->control);
     for (int i = 0; i < 4; i++) free(d->ring[i]);
     free(d->row);
+    free(d->n_seen);
     free(d->load);
     free(d->ln_load);
     free(d->plain);

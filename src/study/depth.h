@@ -5,7 +5,7 @@
  * sum over i of w_i times sum over arcs of w P(Y <= x / M). Weights w_i: the design's, calibrated on the law of scenarios (control.h).
  *
  * Records are streamed; of each one only the loads on arcs in use stay (n x arcs doubles, twice with their logarithms: 23 MB for 4000 records of
- * 360 arcs). Beyond FW_DEPTH_MOST_LOADS of them every second record is let go, again and again: 44000 records of 360 arcs or 690000 of 24 know a
+ * 360 arcs). Beyond FW_DEPTH_MOST_LOADS of them every second record of each randomisation is let go, again and again: 44000 records of 360 arcs or 690000 of 24 know a
  * percentile to some 0.3 %, and nothing is gained by knowing it better than the discretisation. Costs, failures and the sums of path, impact and
  * high load are those of all records.
  *
@@ -29,6 +29,7 @@ typedef struct fw_depth_row {
     double      ring_load; /* mean over the ring [MPa^m km] */
     double      thickness; /* of what wore [m] */
     uint32_t    direction_law;
+    uint64_t    number; /* of the records that did not fail of its randomisation, from 0 */
 } fw_depth_row;
 
 typedef struct fw_depth {
@@ -40,12 +41,13 @@ typedef struct fw_depth {
     size_t        law;      /* abrasion law */
 
     size_t        n;        /* records kept */
-    size_t        stride;   /* of the records that did not fail one in so many is kept */
+    size_t        stride;   /* of the records that did not fail of each randomisation (of all, where there is none) one in so many is kept */
+    uint64_t     *n_seen;   /* (1 + randomisations) of them so far, those without one first; owned */
     size_t        most_loads; /* FW_DEPTH_MOST_LOADS; tests take less */
     fw_depth_row *row;      /* (n); owned */
     double       *load;     /* (n x n_used) [MPa^m km]; owned */
     double       *ln_load;  /* (n x n_used) its logarithm, only with a continuous temperature law; owned */
-    size_t        capacity_row, capacity_load, capacity_ln;
+    size_t        capacity_row, capacity_load, capacity_ln, capacity_seen;
 
     /* of all records */
     size_t        n_good, n_failed;

@@ -11,4 +11,7 @@
 fw_status fw_ledger_rows(fw_answer *a, const fw_campaign *c, const fw_window *w, const fw_percentile_row *governing,
                          const fw_law_factor *law, size_t at, fw_msg *m);
 
+/* From a ledger: what dominates at each point, and what to do about it. */
+void fw_ledger_advise(fw_answer *a, size_t n_percentiles);
+
 #endif
