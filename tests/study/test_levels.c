@@ -73,6 +73,11 @@ static void verdicts(void **state)
     CHECK_NEAR(row[2].pairs.correlation, p * (1 - q) / sqrt(p * (1 - p) * q * (1 - q)), 1e-9);
     assert_true(!row[2].is_promising && row[2].pairs.multifidelity.low > 2 && row[2].pairs.kurtosis > 200);
     assert_non_null(strstr(row[2].verdict, "a few pairs carry the difference"));
+    /* nor is a promise taken from a pilot that has fewer control variates than a run */
+    l.n_functions = 7, l.n_windows = 128;
+    assert_int_equal(fw_levels_compare(&l, &c, &own, 3, cheap, NULL), FW_OK);
+    assert_true(!row[0].is_promising && row[0].pairs.multifidelity.low > 2);
+    assert_non_null(strstr(row[0].verdict, "128 windows are too few"));
     /* a campaign that asks for a mean is about means: the one that was lifted spoils it */
     l = ask(NAN);
     assert_int_equal(fw_levels_compare(&l, &c, &own, 3, cheap, NULL), FW_OK);
