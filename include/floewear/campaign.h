@@ -126,7 +126,7 @@ typedef struct fw_stop_rule {
 
 /* Numbers for the live line; called at most every 0.2 s on rank 0. */
 typedef struct fw_progress {
-    uint64_t done, failed, prefix, total;
+    uint64_t done, failed, prefix, total; /* of a part: within it */
     double   elapsed_s, rate_per_s, eta_s;
     int      ranks;
 } fw_progress;
@@ -145,12 +145,15 @@ typedef struct fw_run {
     fw_stop_rule       stop;    /* look may be NULL: run to max_realisations */
     fw_watcher         watcher; /* show may be NULL */
     int64_t            only_id; /* >= 0: this one only */
+    /* A part of a campaign that is run in several places and merged afterwards: ids first_id .. end_id - 1 alone; zeros: all of it. It asks no
+     * stop rule: how precise the whole will be cannot be seen from ids that are no prefix of it. */
+    uint64_t           first_id, end_id;
 } fw_run;
 
 /* Filled on every return but FW_E_ARG, so that an early stop can be reported and continued. */
 typedef struct fw_run_result {
-    uint64_t n_prefix;         /* complete prefix 0..n_prefix-1 that the answer is made from */
-    uint64_t n_done, n_failed; /* records below max_realisations now in the sink, those of earlier calls included */
+    uint64_t n_prefix;         /* complete prefix 0..n_prefix-1 (a part: from first_id on) that the answer is made from */
+    uint64_t n_done, n_failed; /* records below max_realisations (a part: of its ids) now in the sink, those of earlier calls included */
     bool     is_enough;        /* the stop rule said so (else max_realisations, or stopped) */
 } fw_run_result;
 

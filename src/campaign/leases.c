@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "campaign/looks.h"
 
-/* Failures among ids 0 .. n-1. */
+/* Failures among ids first .. n-1. */
 static uint64_t leases_failed_below(const fw_leases *l, uint64_t n)
 {
     size_t low = 0, high = l->n_failed;
@@ -41,28 +41,29 @@ static uint64_t leases_limit(const fw_leases *l)
     return l->max;
 }
 
-fw_status fw_leases_create(fw_leases *l, int n_ranks, uint64_t max, uint64_t max_failed, bool has_looks, size_t n_have,
-                           const uint64_t *have, size_t n_have_failed, const uint64_t *have_failed, fw_msg *m)
+fw_status fw_leases_create(fw_leases *l, int n_ranks, uint64_t first, uint64_t max, uint64_t max_failed, bool has_looks,
+                           size_t n_have, const uint64_t *have, size_t n_have_failed, const uint64_t *have_failed, fw_msg *m)
 {
     fw_status s;
 
     *l = (fw_leases){.have       = have,
                      .n_have     = n_have,
+                     .first      = first,
+                     .next       = first,
                      .max        = max,
                      .max_failed = max_failed,
                      .has_looks  = has_looks,
                      .look       = fw_looks_first(max),
                      .n_ranks    = n_ranks};
-    for (size_t i = 0; i < n_have && have[i] < max; i++) l->n_done++;
+    for (size_t i = 0; i < n_have && have[i] < max; i++) l->n_done += have[i] >= first;
     s = fw_alloc(&l->held, (size_t)n_ranks, sizeof *l->held, "leases of ranks", m);
     if (s == FW_OK) s = fw_grow(&l->failed, &l->failed_capacity, n_have_failed, sizeof *l->failed, "failed ids", m);
     if (s != FW_OK) {
         fw_leases_destroy(l);
         return s;
     }
-    while (l->n_failed < n_have_failed && have_failed[l->n_failed] < max) {
-        l->failed[l->n_failed] = have_failed[l->n_failed];
-        l->n_failed++;
+    for (size_t i = 0; i < n_have_failed && have_failed[i] < max; i++) {
+        if (have_failed[i] >= first) l->failed[l->n_failed++] = have_failed[i];
     }
     leases_skip(l);
     return FW_OK;

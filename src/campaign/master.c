@@ -120,8 +120,13 @@ static void master_explain_failures(master *a, uint64_t n)
 
         used += k > 0 ? (size_t)k : 0;
     }
-    fw_fail(&a->why, FW_E_FAILURES, "more than %llu of the first %llu realisations failed%s",
-            (unsigned long long)l->max_failed, (unsigned long long)n, list);
+    if (l->first > 0) {
+        fw_fail(&a->why, FW_E_FAILURES, "more than %llu of realisations %llu to %llu failed%s", (unsigned long long)l->max_failed,
+                (unsigned long long)l->first, (unsigned long long)(n - 1), list);
+    } else {
+        fw_fail(&a->why, FW_E_FAILURES, "more than %llu of the first %llu realisations failed%s",
+                (unsigned long long)l->max_failed, (unsigned long long)n, list);
+    }
 }
 
 static void master_judge(master *a)
@@ -268,8 +273,8 @@ static void master_show(master *a)
 {
     fw_progress p = {.done      = a->leases.n_done,
                      .failed    = a->leases.n_failed,
-                     .prefix    = fw_leases_prefix(&a->leases),
-                     .total     = a->leases.max,
+                     .prefix    = fw_leases_prefix(&a->leases) - a->leases.first,
+                     .total     = a->leases.max - a->leases.first,
                      .elapsed_s = fw_seconds() - a->started,
                      .ranks     = a->n_ranks};
 
@@ -370,6 +375,10 @@ static void master_close(master *a)
     if (a->run->watcher.show) master_show(a);
 }
 
+static uint64_t master_end_id(const fw_run *run) { return run->end_id ? run->end_id : run->campaign->precision.max_realisations; }
+
+static bool master_is_part(const fw_run *run) { return run->first_id > 0 || run->end_id > 0; }
+
 static fw_status master_open(master *a, const fw_run *run, fw_msg *m)
 {
     const fw_campaign *c = run->campaign;
@@ -379,8 +388,8 @@ static fw_status master_open(master *a, const fw_run *run, fw_msg *m)
     a->n_ranks  = fw_protocol_ranks();
     for (int i = 0; i < MASTER_RECEIVES; i++) a->receives[i] = MPI_REQUEST_NULL;
     a->n_bytes  = fw_record_packed_size(c->model.n_arcs, c->model.n_laws);
-    FW_TRY(fw_leases_create(&a->leases, a->n_ranks, c->precision.max_realisations, c->precision.max_failed,
-                            run->stop.look != NULL, run->n_have, run->have, run->n_have_failed, run->have_failed, m));
+    FW_TRY(fw_leases_create(&a->leases, a->n_ranks, run->first_id, master_end_id(run), c->precision.max_failed,
+                            run->stop.look != NULL && !master_is_part(run), run->n_have, run->have, run->n_have_failed, run->have_failed, m));
     FW_TRY(fw_alloc(&a->is_ready, (size_t)a->n_ranks, sizeof *a->is_ready, "states of ranks", m));
     FW_TRY(fw_alloc(&a->bytes, a->n_bytes, MASTER_RECEIVES, "packed records", m));
     return fw_record_init(&a->record, c->model.n_arcs, c->model.n_laws, m);
@@ -423,6 +432,8 @@ fw_status fw_campaign_run(const fw_run *run, fw_run_result *result, fw_msg *m)
              "a campaign needs its settings, a result and a sink");
     FW_CHECK(fw_protocol_rank() == 0, m, FW_E_ARG, "only rank 0 runs a campaign");
     *result = (fw_run_result){0};
+    FW_CHECK(run->first_id < master_end_id(run) || run->first_id == 0, m, FW_E_ARG, "a part from realisation %llu to before %llu has none",
+             (unsigned long long)run->first_id, (unsigned long long)master_end_id(run));
     if (run->only_id >= 0) return master_run_one(run, result, m);
 
     s = master_open(&a, run, m);
@@ -438,7 +449,7 @@ fw_status fw_campaign_run(const fw_run *run, fw_run_result *result, fw_msg *m)
     master_close(&a);
 
     s = a.status;
-    result->n_prefix  = a.is_prefix_fixed ? a.prefix : fw_leases_prefix(&a.leases);
+    result->n_prefix  = (a.is_prefix_fixed ? a.prefix : fw_leases_prefix(&a.leases)) - run->first_id;
     result->n_done    = a.leases.n_done;
     result->n_failed  = a.leases.n_failed;
     result->is_enough = a.is_enough;

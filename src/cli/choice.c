@@ -16,7 +16,8 @@
 
 fw_status fw_choice_path(char *path, size_t size, const char *out, fw_choice_file kind, fw_msg *m)
 {
-    static const char *const ENDS[] = {".accuracy.h5", ".effects.h5", ".plan.h5", ".journal", ".h5"};
+    static const char *const ENDS[] = {[FW_CHOICE_ACCURACY] = ".accuracy.h5", [FW_CHOICE_EFFECTS] = ".effects.h5", [FW_CHOICE_PLAN] = ".plan.h5",
+                                       [FW_CHOICE_JOURNAL] = ".journal", [FW_CHOICE_RESULTS] = ".h5"};
     size_t                   n = strlen(out);
     for (size_t i = 0; i < sizeof ENDS / sizeof ENDS[0]; i++) {
         size_t k = strlen(ENDS[i]);
@@ -31,8 +32,7 @@ fw_status fw_choice_path(char *path, size_t size, const char *out, fw_choice_fil
     return FW_OK;
 }
 
-/* The first line in which two settings differ, by its key; both are lists of "key = value\n" in one order. */
-static void first_difference(const char *a, const char *b, char *key, size_t size)
+void fw_choice_first_difference(const char *a, const char *b, char *key, size_t size)
 {
     for (;;) {
         size_t n = strcspn(a, "\n"), k = strcspn(b, "\n");
@@ -54,7 +54,7 @@ static fw_status check_owner(const fw_tables *t, const char *path, const fw_camp
     char        key[64];
     const char *theirs = fw_tables_settings(t);
     if (strcmp(theirs, bare->settings) == 0) return FW_OK;
-    first_difference(theirs, bare->settings, key, sizeof key);
+    fw_choice_first_difference(theirs, bare->settings, key, sizeof key);
     return fw_fail(m, FW_E_MISMATCH, "%s belongs to another campaign (%s differs)", path, key);
 }
 

@@ -11,10 +11,14 @@
 #include "floewear/campaign.h"
 #include "study/effects_ledger.h"
 
-typedef enum fw_choice_file { FW_CHOICE_ACCURACY, FW_CHOICE_EFFECTS, FW_CHOICE_PLAN, FW_CHOICE_JOURNAL } fw_choice_file;
+typedef enum fw_choice_file { FW_CHOICE_ACCURACY, FW_CHOICE_EFFECTS, FW_CHOICE_PLAN, FW_CHOICE_JOURNAL, FW_CHOICE_RESULTS } fw_choice_file;
 
-/* "results/a.h5", "results/a", "results/a.accuracy.h5" and "results/a.effects.h5" all mean results/a.accuracy.h5, results/a.effects.h5 and so on. */
+/* "results/a.h5", "results/a", "results/a.accuracy.h5" and "results/a.effects.h5" all mean results/a.accuracy.h5, results/a.effects.h5 and so on, or
+ * the results/a.h5 that they lie beside. */
 fw_status fw_choice_path(char *path, size_t size, const char *out, fw_choice_file kind, fw_msg *m);
+
+/* The key of the first line in which two settings differ; both are lists of "key = value\n" in one order. */
+void fw_choice_first_difference(const char *a, const char *b, char *key, size_t size);
 
 typedef struct fw_choice_wanted {
     const char        *campaign; /* the file */

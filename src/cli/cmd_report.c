@@ -5,14 +5,11 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "cli/accuracy_file.h"
 #include "cli/campaign_arguments.h"
 #include "cli/commands.h"
-#include "cli/config.h"
-#include "cli/effects_tables.h"
 #include "cli/output.h"
 #include "cli/report_table.h"
-#include "study/effects_measured.h"
+#include "cli/results_input.h"
 
 typedef struct report_arguments {
     const char *path, *law;
@@ -20,15 +17,16 @@ typedef struct report_arguments {
     size_t      n_percentiles, percentiles_capacity;
     size_t     *points; /* (n_points) */
     size_t      n_points, points_capacity;
-    bool        is_csv, is_json;
+    bool        is_csv, is_json, is_together;
 } report_arguments;
 
-enum { KEY_CSV = 256, KEY_JSON, KEY_LAW };
+enum { KEY_CSV = 256, KEY_JSON, KEY_LAW, KEY_SIMULTANEOUS };
 
 static const struct argp_option report_options[] = {
     {"points", 'p', "LIST", 0, "measuring points by number, as in 1,6 (default: all)", 0},
     {"percentiles", 'q', "LIST", 0, "percentiles, as in 50,90,95,99 (default: these)", 0},
     {"law", KEY_LAW, "NAME", 0, "abrasion law of the campaign (default: its first)", 0},
+    {"simultaneous", KEY_SIMULTANEOUS, NULL, 0, "in the table of points: intervals that cover at all of them together (CSV and JSON have both)", 0},
     {"csv", KEY_CSV, NULL, 0, "one line per point and percentile", 0},
     {"json", KEY_JSON, NULL, 0, "print JSON", 0},
     {0}};
@@ -86,6 +84,7 @@ static error_t report_parse(int key, char *text, struct argp_state *state)
     case KEY_LAW: a->law = text; return 0;
     case KEY_CSV: a->is_csv = true; return 0;
     case KEY_JSON: a->is_json = true; return 0;
+    case KEY_SIMULTANEOUS: a->is_together = true; return 0;
     case ARGP_KEY_ARG:
         if (a->path) {
             argp_error(state, "one results file is wanted, not also %s", text);
@@ -123,29 +122,15 @@ static fw_status find_law(const fw_campaign *c, const char *name, size_t *law, f
     return fw_fail(m, FW_E_INPUT, "--law %s: the campaign has no such abrasion law; it has %s", name, known);
 }
 
-/* Files of earlier versions have no such table: what this version knows stands in for it. */
-static fw_status read_measured(const char *path, const fw_campaign *c, fw_measured *out, fw_effects_ledger *effects, fw_msg *m)
-{
-    fw_tables *t;
-    fw_measured_default(out, &c->model);
-    FW_TRY(fw_tables_open(&t, path, NULL, m));
-    fw_status s = fw_tables_has(t, "accuracy") ? fw_accuracy_file_read_measured(t, out, m) : FW_OK;
-    if (s == FW_OK) s = fw_effects_tables_read(t, effects, m);
-    if (s == FW_OK && effects->n_rows == 0) fw_effects_measured_default(effects, &c->model);
-    fw_tables_close(t);
-    return s;
-}
-
 static fw_status report_campaign(const report_arguments *a, const fw_campaign *c, fw_results *r, fw_msg *m)
 {
-    fw_record_source  records = fw_results_records(r);
-    fw_answer_source  source = {.n = records.n, .read = records.read, .self = records.self, .law = fw_campaign_law(c)};
+    fw_answer_source  source = {.records = fw_results_records(r), .law = fw_campaign_law(c)};
     fw_answer_options o = {
         .n_percentiles = a->n_percentiles, .percentiles = a->percentiles, .n_points = a->n_points, .points = a->points};
     fw_answer   answer;
     fw_measured measured;
     fw_effects_ledger effects;
-    FW_TRY(read_measured(a->path, c, &measured, &effects, m));
+    FW_TRY(fw_results_input_measured(r, c, &measured, &effects, m));
     o.measured = &measured, o.effects = &effects;
     FW_TRY(find_law(c, a->law, &o.law, m));
     FW_TRY(fw_answer_make(&answer, c, &source, &o, m));
@@ -153,6 +138,8 @@ static fw_status report_campaign(const report_arguments *a, const fw_campaign *c
         fw_report_print_json(stdout, c, &answer);
     } else if (a->is_csv) {
         fw_report_print_csv(stdout, c, &answer);
+    } else if (a->is_together) {
+        fw_report_print_simultaneous(stdout, c, &answer);
     } else {
         fw_report_print_table(stdout, c, &answer);
     }
@@ -162,13 +149,10 @@ static fw_status report_campaign(const report_arguments *a, const fw_campaign *c
 
 static fw_status report(const report_arguments *a, fw_msg *m)
 {
-    fw_results        *r = NULL;
-    const char *const *sets = NULL;
-    fw_campaign        c;
+    fw_results *r = NULL;
+    fw_campaign c;
     FW_TRY(fw_results_open(&r, a->path, m));
-    const char *text = fw_results_campaign_text(r);
-    size_t      n_sets = fw_results_sets(r, &sets);
-    fw_status   s = fw_config_campaign_text(&c, a->path, text, strlen(text), n_sets, sets, fw_results_seed(r), m);
+    fw_status s = fw_results_input_campaign(r, a->path, &c, m);
     if (s == FW_OK) {
         s = report_campaign(a, &c, r, m);
         fw_campaign_free(&c);

@@ -20,17 +20,18 @@
 #include "cli/output.h"
 #include "cli/progress_line.h"
 #include "cli/record_print.h"
-#include "cli/report_table.h"
+#include "cli/run_answer.h"
 #include "cli/run_files.h"
 
 typedef struct run_arguments {
     fw_campaign_arguments of; /* the campaign */
     const char           *out, *accuracy_from;
     int64_t               only_id; /* < 0: the whole campaign */
+    int64_t               first_id, end_id; /* of a part; end_id 0: all of it */
     bool                  is_fresh, is_quiet, is_json, runs_failed_again;
 } run_arguments;
 
-enum { KEY_FRESH = 256, KEY_RERUN, KEY_JSON, KEY_ONLY_ID, KEY_ACCURACY };
+enum { KEY_FRESH = 256, KEY_RERUN, KEY_JSON, KEY_ONLY_ID, KEY_ACCURACY, KEY_IDS };
 
 static const struct argp_option run_options[] = {
     {"output", 'o', "OUT", 0, "write OUT.journal and OUT.h5 (default: the campaign's name, in the current folder)", 0},
@@ -40,6 +41,7 @@ static const struct argp_option run_options[] = {
     {"fresh", KEY_FRESH, NULL, 0, "start anew; an old journal is kept as OUT.journal.old", 0},
     {"rerun-failed", KEY_RERUN, NULL, 0, "run those of the journal again that failed", 0},
     {"accuracy-from", KEY_ACCURACY, "FILE", 0, "numerics chosen by floewear accuracy (default: OUT.accuracy.h5, if it is there)", 0},
+    {"ids", KEY_IDS, "FIRST:END", 0, "a part: only realisations FIRST to END-1, as in 0:1000 and 1000:2000 on two machines; it does not stop by precision, and floewear merge joins parts", 0},
     {"quiet", 'q', NULL, 0, "no progress on stderr", 0},
     {"json", KEY_JSON, NULL, 0, "results as JSON instead of tables", 0},
     {"only-id", KEY_ONLY_ID, "N", 0, "run realisation N alone and print its record; nothing is written but, if it fails, OUT.failed-N.yaml, a scene that fails too", 0},
@@ -49,6 +51,17 @@ static const char run_doc[] =
     "Run a campaign and print its design percentiles. Under mpirun all ranks share the work. Run the same command "
     "again to go on after a stop.\vExit codes: 0 done, 2 wrong input, 3 too many failed realisations, 4 input or "
     "output error, 75 stopped early (signal or time budget).";
+
+/* "1000:2000", half-open, so that parts meet without a number between them. */
+static bool run_parse_ids(const char *text, run_arguments *a)
+{
+    char        first[32];
+    const char *colon = strchr(text, ':');
+
+    if (!colon || (size_t)(colon - text) >= sizeof first) return false;
+    snprintf(first, sizeof first, "%.*s", (int)(colon - text), text);
+    return fw_argument_number(first, &a->first_id) && fw_argument_number(colon + 1, &a->end_id) && a->first_id < a->end_id;
+}
 
 static error_t run_parse(int key, char *text, struct argp_state *state)
 {
@@ -65,6 +78,16 @@ static error_t run_parse(int key, char *text, struct argp_state *state)
         if (fw_argument_number(text, &a->only_id)) return 0;
         argp_error(state, "--only-id %s: a realisation's number from 0 on is wanted", text);
         return EINVAL;
+    case KEY_IDS:
+        if (run_parse_ids(text, a)) return 0;
+        argp_error(state, "--ids %s: FIRST:END is wanted, as in 0:1000 for realisations 0 to 999", text);
+        return EINVAL;
+    case ARGP_KEY_END:
+        if (a->end_id > 0 && a->only_id >= 0) {
+            argp_error(state, "--ids or --only-id, not both");
+            return EINVAL;
+        }
+        return fw_campaign_arguments_parse(key, text, state, &a->of);
     default: return fw_campaign_arguments_parse(key, text, state, &a->of);
     }
 }
@@ -143,54 +166,27 @@ static fw_status run_look(void *self, uint64_t n, bool *is_enough, fw_msg *m)
 /* Failed realisations are told in any case: how to see each again stands beside it. */
 static void run_list_failures(run_session *s, uint64_t n)
 {
+    fw_record_source records = fw_run_files_records(&s->files, n);
     const fw_model *model  = &s->campaign->model;
     uint64_t        n_told = 0, n_failed = 0, n_cured = 0;
     fw_record       r = {.id = 0};
     fw_msg          m;
 
     if (fw_record_init(&r, model->n_arcs, model->n_laws, &m) != FW_OK) return;
-    for (uint64_t id = 0; id < n; id++) {
-        if (fw_journal_read(s->files.journal, id, &r, &m) != FW_OK) continue;
+    for (uint64_t i = 0; i < n; i++) {
+        if (records.read(records.self, i, &r, &m) != FW_OK) continue;
         if (r.status == FW_OK && r.tries > 1 && n_cured++ < 3)
-            fprintf(stderr, "cured by finer steps: id %" PRIu64 ": %s\n", id, r.cause);
+            fprintf(stderr, "cured by finer steps: id %" PRIu64 ": %s\n", r.id, r.cause);
         if (r.status == FW_OK) continue;
         n_failed++;
         if (n_told++ < 10) {
-            fprintf(stderr, "failed: id %" PRIu64 " (seed %" PRIu64 "): %s; --only-id %" PRIu64 " runs it again\n", id,
-                    s->campaign->seed, r.cause, id);
+            fprintf(stderr, "failed: id %" PRIu64 " (seed %" PRIu64 "): %s; --only-id %" PRIu64 " runs it again\n", r.id,
+                    s->campaign->seed, r.cause, r.id);
         }
     }
     if (n_cured > 3) fprintf(stderr, "cured by finer steps: %" PRIu64 " in all\n", n_cured);
     if (n_failed > 10) fprintf(stderr, "failed: %" PRIu64 " more\n", n_failed - 10);
     fw_record_free(&r);
-}
-
-/* Answers, results file and table of the first n realisations. */
-static fw_status run_answer(run_session *s, uint64_t n, const run_arguments *a, fw_msg *m)
-{
-    fw_answer_source source  = fw_run_files_answer(&s->files, n);
-    fw_record_source records = fw_run_files_records(&s->files, n);
-    static const double percentiles[] = {50, 90, 95, 99};
-    fw_answer_options   options       = {.n_percentiles = sizeof percentiles / sizeof percentiles[0],
-                                         .percentiles   = percentiles,
-                                         .confidence    = s->campaign->precision.confidence,
-                                         .measured      = &s->choice.measured,
-                                         .effects       = &s->choice.effects};
-    fw_answer        answer;
-    fw_status        status;
-
-    FW_TRY(fw_answer_make(&answer, s->campaign, &source, &options, m));
-    status = fw_report_write(s->files.results_path, s->campaign, &records, &answer, m);
-    if (status == FW_OK) {
-        if (a->is_json) {
-            fw_report_print_json(stdout, s->campaign, &answer);
-        } else {
-            fw_report_print_table(stdout, s->campaign, &answer);
-        }
-        status = fw_output_finish(m);
-    }
-    fw_answer_free(&answer);
-    return status;
 }
 
 static void run_say_not_applied(const fw_campaign *c)
@@ -214,16 +210,23 @@ static fw_status run_campaign(run_session *s, const run_arguments *a, fw_msg *m)
                               .n_have_failed = s->files.n_have_failed,
                               .sink          = fw_run_files_sink(&s->files),
                               .watcher       = {.show = run_show, .self = s},
+                              .first_id      = (uint64_t)a->first_id,
+                              .end_id        = (uint64_t)a->end_id,
                               .only_id       = -1};
+    uint64_t           total = a->end_id ? run.end_id - run.first_id : c->precision.max_realisations;
 
     if (c->precision.half_width > 0.0) run.stop = (fw_stop_rule){.look = run_look, .self = s};
     if (!a->is_quiet) fprintf(stderr, "%s\n", s->choice.line);
     if (s->choice.design_line[0] && !a->is_quiet) fprintf(stderr, "%s\n", s->choice.design_line);
     if (s->choice.effects_line[0] && (!a->is_quiet || s->choice.dropped)) fprintf(stderr, "%s\n", s->choice.effects_line);
+    if (a->end_id && !a->is_quiet) {
+        fprintf(stderr, "a part: realisations %" PRId64 " to %" PRId64 "; it does not stop by precision, as its ids are no prefix of the campaign\n",
+                a->first_id, a->end_id - 1);
+    }
     fw_progress_line_start(&s->line, stderr, a->is_quiet);
     if (s->files.n_have && !a->is_quiet) {
         fprintf(stderr, "%s: going on from %zu of %" PRIu64 " realisations\n", s->files.journal_path, s->files.n_have,
-                c->precision.max_realisations);
+                total);
     }
     status = fw_campaign_run(&run, &result, m);
     fw_progress_line_end(&s->line);
@@ -232,8 +235,10 @@ static fw_status run_campaign(run_session *s, const run_arguments *a, fw_msg *m)
     if (status != FW_OK && status != FW_E_STOPPED && status != FW_E_FAILURES) return status;
     /* Stopped while it ran failed ones again: fewer stand without a gap than before, and results of all are there. */
     if (result.n_prefix > 0 && !(status == FW_E_STOPPED && a->runs_failed_again)) {
-        written = run_answer(s, result.n_prefix, a, &later);
-        if (written == FW_OK && !a->is_quiet) {
+        written = fw_run_answer(&s->files, result.n_prefix, &s->choice.measured, &s->choice.effects, a->is_json, &later);
+        if (written == FW_OK && !a->is_quiet && a->end_id) {
+            fprintf(stderr, "%s: realisations %" PRIu64 " to %" PRIu64 "\n", s->files.results_path, run.first_id, run.first_id + result.n_prefix - 1);
+        } else if (written == FW_OK && !a->is_quiet) {
             fprintf(stderr, "%s: the first %" PRIu64 " realisations\n", s->files.results_path, result.n_prefix);
         }
     }
@@ -241,11 +246,11 @@ static fw_status run_campaign(run_session *s, const run_arguments *a, fw_msg *m)
         fw_msg why = *m;
 
         fw_fail(m, status, "%s with %" PRIu64 " of %" PRIu64 " realisations in %s; run the same command again to go on",
-                why.text, result.n_done, c->precision.max_realisations, s->files.journal_path);
+                why.text, result.n_done, total, s->files.journal_path);
     }
     if (status == FW_E_FAILURES) {
-        fw_fail(m, status, "more than %" PRIu64 " (precision.max_failed) of the first %" PRIu64 " realisations failed",
-                c->precision.max_failed, result.n_prefix);
+        fw_fail(m, status, "more than %" PRIu64 " (precision.max_failed) of the first %" PRIu64 " realisations%s failed",
+                c->precision.max_failed, result.n_prefix, a->end_id ? " of this part" : "");
     }
     if (written != FW_OK && !(written == FW_E_FAILURES && status != FW_OK)) { /* that there is no answer after that is no news */
         *m = later;
@@ -325,6 +330,14 @@ static fw_choice_wanted run_wanted(const run_arguments *a)
                               .out      = a->out};
 }
 
+static fw_status run_check_part(const run_arguments *a, const fw_campaign *c, fw_msg *m)
+{
+    FW_CHECK((uint64_t)a->end_id <= c->precision.max_realisations, m, FW_E_INPUT,
+             "--ids %" PRId64 ":%" PRId64 ": the campaign has realisations 0 to %" PRIu64 " (precision.max_realisations %" PRIu64 ")", a->first_id,
+             a->end_id, c->precision.max_realisations - 1, c->precision.max_realisations);
+    return FW_OK;
+}
+
 static fw_status run_lead(const run_arguments *a, fw_msg *m)
 {
     fw_campaign c;
@@ -341,12 +354,18 @@ static fw_status run_lead(const run_arguments *a, fw_msg *m)
     }
     c.precision.budget_s = a->of.budget_s;
     run_say_not_applied(&c);
+    status = run_check_part(a, &c, m);
+    if (status != FW_OK) {
+        fw_campaign_cancel();
+        fw_campaign_free(&c);
+        return status;
+    }
     if (a->only_id >= 0) {
         status = run_only(&c, a, m);
         fw_campaign_free(&c);
         return status;
     }
-    status = fw_run_files_open(&s.files, &c, a->out, a->is_fresh, a->runs_failed_again, m);
+    status = fw_run_files_open(&s.files, &c, a->out, a->is_fresh, a->runs_failed_again, (uint64_t)a->first_id, m);
     if (status == FW_OK) {
         status = run_campaign(&s, a, m);
     } else {

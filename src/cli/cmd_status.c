@@ -68,6 +68,8 @@ static void print_json(const fw_journal_facts *f)
     fw_json_integer(&j, (int64_t)f->n_failed);
     fw_json_key(&j, "prefix");
     fw_json_integer(&j, (int64_t)f->prefix);
+    fw_json_key(&j, "first_id");
+    fw_json_integer(&j, (int64_t)f->first);
     fw_json_key(&j, "max_realisations");
     if (f->max_realisations > 0)
         fw_json_integer(&j, (int64_t)f->max_realisations);
@@ -98,7 +100,10 @@ static void print_table(const fw_journal_facts *f)
                100.0 * (double)f->n_done / (double)f->max_realisations);
     }
     printf(", %" PRIu64 " failed\n", f->n_failed);
-    printf("without gaps  the first %" PRIu64 " (what results are made from)\n", f->prefix);
+    if (f->first == 0)
+        printf("without gaps  the first %" PRIu64 " (what results are made from)\n", f->prefix);
+    else
+        printf("a part        of realisations %" PRIu64 " to %" PRIu64 "\n", f->first, f->end - 1);
     if (f->n_done > 0) {
         printf("CPU time      %.1f s, %.3g s per realisation\n", f->host_cpu_s, f->host_cpu_s / (double)f->n_done);
     }

@@ -8,6 +8,7 @@ int fw_cmd_plan(int argc, char **argv);
 int fw_cmd_accuracy(int argc, char **argv);
 int fw_cmd_scene(int argc, char **argv);
 int fw_cmd_report(int argc, char **argv);
+int fw_cmd_merge(int argc, char **argv);
 int fw_cmd_status(int argc, char **argv);
 int fw_cmd_keys(int argc, char **argv);
 int fw_cmd_effects(int argc, char **argv);

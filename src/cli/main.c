@@ -25,6 +25,7 @@ static const command main_commands[] = {
     {"scene", fw_cmd_scene, "floewear scene", "given floes, no sampling: the deterministic kernel alone"},
     {"accuracy", fw_cmd_accuracy, "floewear accuracy", "error against cost, measured on the campaign; run and plan use its choice"},
     {"report", fw_cmd_report, "floewear report", "percentiles with intervals, service life, ledgers of a results file"},
+    {"merge", fw_cmd_merge, "floewear merge", "one campaign from results that were run in parts (run --ids)"},
     {"status", fw_cmd_status, "floewear status", "progress of a running or stopped campaign, from outside"},
     {"keys", fw_cmd_keys, "floewear keys", "every key of campaign and scene files"},
     {"effects", fw_cmd_effects, "floewear effects", "the effects and when a scene needs them"},

@@ -24,7 +24,7 @@ void fw_report_print_csv(FILE *to, const fw_campaign *c, const fw_answer *a)
         to,
         "point,bearing_deg,percentile,depth_mm,low_mm,high_mm,coverage,method,mean_mm,mean_low_mm,mean_high_mm,path_km,"
         "impact_share,high_share,life_depth_mm,life_low_mm,life_high_mm,life_windows,allowance_year,"
-        "with_law_depth_mm,with_law_low_mm,with_law_high_mm\n");
+        "with_law_depth_mm,with_law_low_mm,with_law_high_mm,band_low_mm,band_high_mm,n_effective\n");
     for (size_t i = 0; i < a->n_percentiles; i++) {
         const fw_percentile_row *row = &a->percentiles[i];
         const fw_point_row      *p = &a->points[i / n];
@@ -54,6 +54,9 @@ void fw_report_print_csv(FILE *to, const fw_campaign *c, const fw_answer *a)
         csv_number(to, life->with_law_depth_mm);
         csv_number(to, life->with_law_low_mm);
         csv_number(to, life->with_law_high_mm);
+        csv_number(to, row->band_low_mm);
+        csv_number(to, row->band_high_mm);
+        csv_number(to, row->n_effective);
         fputc('\n', to);
     }
 }
@@ -89,6 +92,9 @@ static void json_percentiles(fw_json *j, const fw_answer *a)
         number(j, "depth_mm", row->depth_mm);
         number(j, "low_mm", row->low_mm);
         number(j, "high_mm", row->high_mm);
+        number(j, "band_low_mm", row->band_low_mm);
+        number(j, "band_high_mm", row->band_high_mm);
+        number(j, "n_effective", row->n_effective);
         number(j, "coverage", row->coverage);
         string(j, "method", row->method);
         fw_json_end(j);
@@ -297,6 +303,8 @@ void fw_report_print_json(FILE *to, const fw_campaign *c, const fw_answer *a)
     string(&j, "campaign", c->name);
     count(&j, "n", a->n);
     count(&j, "failed", a->n_failed);
+    count(&j, "first_id", a->span.first);
+    count(&j, "last_id", (a->span.end ? a->span.end : a->n) - 1);
     count(&j, "seed", c->seed);
     number(&j, "window_s", c->model.window);
     number(&j, "confidence", a->confidence);

@@ -31,11 +31,39 @@ static void print_what(FILE *to, const fw_campaign *c, const fw_answer *a)
     fputc('\n', to);
 }
 
+/* Which realisations, where they are not the first n of the campaign. */
+static void print_part(FILE *to, const fw_answer *a)
+{
+    const fw_id_span *s = &a->span;
+    if (s->first == 0 && (s->end == 0 || s->end == a->n)) return;
+    fprintf(to, "a part of the campaign: realisations %" PRIu64 " to %" PRIu64, s->first, s->end - 1);
+    if (s->end - s->first > a->n) {
+        fprintf(to, ", of which %" PRIu64 " are missing, the first gap from %" PRIu64 " to %" PRIu64, s->end - s->first - a->n, s->gap_first,
+                s->gap_end - 1);
+    }
+    fputc('\n', to);
+}
+
 static const fw_percentile_row *governing_row(const fw_answer *a)
 {
     for (size_t i = 0; i < a->n_percentiles; i++)
         if (a->percentiles[i].point == a->governing_point && a->percentiles[i].percentile == a->design_percentile) return &a->percentiles[i];
     return NULL;
+}
+
+/* The same with the interval that covers at every point where anything wears, not at this one alone. */
+static void print_together(FILE *to, const fw_answer *a, const fw_percentile_row *governing)
+{
+    char   texts[2][32];
+    size_t n = 0;
+    for (size_t i = 0; i < a->n_percentiles; i++) n += a->percentiles[i].percentile == governing->percentile && a->percentiles[i].depth_mm > 0;
+    if (n < 2 || (isnan(governing->band_low_mm) && isnan(governing->band_high_mm))) return;
+    for (int i = 0; i < 2; i++) {
+        double end = i == 0 ? governing->band_low_mm : governing->band_high_mm;
+        snprintf(texts[i], sizeof texts[i], isnan(end) ? "none" : "%.3g", end);
+    }
+    fprintf(to, "all %zu points together (%g %%): P%g at the governing point [%s, %s] mm\n", n, 100 * a->confidence, governing->percentile, texts[0],
+            texts[1]);
 }
 
 static void print_governing(FILE *to, const fw_answer *a)
@@ -50,6 +78,7 @@ static void print_governing(FILE *to, const fw_answer *a)
     }
     if (isfinite(row->coverage)) fprintf(to, " (%s coverage %.1f %%)", row->method[0] == 'o' ? "attained" : "nominal", 100 * row->coverage);
     fputc('\n', to);
+    print_together(to, a, row);
 }
 
 static void print_life(FILE *to, const fw_answer *a)
@@ -94,6 +123,7 @@ static void print_advice(FILE *to, const fw_answer *a)
 void fw_report_print_summary(FILE *to, const fw_campaign *c, const fw_answer *a)
 {
     print_what(to, c, a);
+    print_part(to, a);
     print_governing(to, a);
     print_life(to, a);
     print_precision(to, c, a);

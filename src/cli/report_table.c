@@ -81,7 +81,7 @@ static void print_doubt(FILE *to, const fw_point_row *p)
         fprintf(to, "  %s\n", p->dominated_by);
 }
 
-static void print_points(FILE *to, const fw_answer *a)
+static void print_points(FILE *to, const fw_answer *a, bool is_together)
 {
     char   text[128], unit[32];
     double largest = 0;
@@ -89,8 +89,8 @@ static void print_points(FILE *to, const fw_answer *a)
     for (size_t i = 0; i < a->n_percentiles; i++) largest = fmax(largest, a->percentiles[i].depth_mm);
     for (size_t i = 0; i < a->n_points; i++) largest = fmax(largest, a->points[i].mean_mm);
     scaling s = scaling_for(largest);
-    fprintf(to, "depth of one window in %s, [%g %% interval] by %s\n\n", unit_of(s, unit, sizeof unit),
-            100 * a->confidence, a->n_percentiles ? a->percentiles[0].method : "");
+    fprintf(to, "depth of one window in %s, [%g %% interval%s] by %s\n\n", unit_of(s, unit, sizeof unit),
+            100 * a->confidence, is_together ? ", all points together" : "", a->n_percentiles ? a->percentiles[0].method : "");
     fprintf(to, "point bearing  mean ");
     for (size_t k = 0; k < n; k++) {
         snprintf(text, sizeof text, "P%g", a->percentiles[k].percentile);
@@ -103,7 +103,8 @@ static void print_points(FILE *to, const fw_answer *a)
                 format_number(text, sizeof text, p->mean_mm / s.divisor));
         for (size_t k = 0; k < n; k++) {
             const fw_percentile_row *row = &a->percentiles[i * n + k];
-            format_with_interval(text, sizeof text, s, row->depth_mm, row->low_mm, row->high_mm);
+            format_with_interval(text, sizeof text, s, row->depth_mm, is_together ? row->band_low_mm : row->low_mm,
+                                 is_together ? row->band_high_mm : row->high_mm);
             fprintf(to, "  %-20s", text);
         }
         print_share(to, p->impact_share);
@@ -286,10 +287,10 @@ static void print_limits(FILE *to, const fw_campaign *c)
                 "unbreakable floes do not.\n");
 }
 
-void fw_report_print_table(FILE *to, const fw_campaign *c, const fw_answer *a)
+static void print_table(FILE *to, const fw_campaign *c, const fw_answer *a, bool is_together)
 {
     fw_report_print_summary(to, c, a);
-    print_points(to, a);
+    print_points(to, a, is_together);
     fputc('\n', to);
     print_swept(to, a);
     print_water_level(to, c, a);
@@ -299,3 +300,7 @@ void fw_report_print_table(FILE *to, const fw_campaign *c, const fw_answer *a)
     print_effects(to, c, a);
     print_limits(to, c);
 }
+
+void fw_report_print_table(FILE *to, const fw_campaign *c, const fw_answer *a) { print_table(to, c, a, false); }
+
+void fw_report_print_simultaneous(FILE *to, const fw_campaign *c, const fw_answer *a) { print_table(to, c, a, true); }

@@ -12,6 +12,8 @@
 
 /* Table of points, governing point, service life, ledger, and what is not modelled. */
 void fw_report_print_table(FILE *to, const fw_campaign *c, const fw_answer *a);
+/* The same with the intervals that cover at all points together in the table of points. */
+void fw_report_print_simultaneous(FILE *to, const fw_campaign *c, const fw_answer *a);
 /* One line per point and percentile, with the point's and the life's numbers repeated on it; %.17g. */
 void fw_report_print_csv(FILE *to, const fw_campaign *c, const fw_answer *a);
 /* One object; its names are the interface that scripts rely on. */

@@ -18,6 +18,10 @@ static void build_percentiles(fw_table_builder *b, const fw_answer *a, fw_msg *m
     FW_TABLE_NUMBERS(b, a->percentiles, fw_percentile_row, low_mm, "mm", "lower end of its interval");
     FW_TABLE_NUMBERS(b, a->percentiles, fw_percentile_row, high_mm, "mm",
                      "upper end of its interval; NaN: does not exist");
+    FW_TABLE_NUMBERS(b, a->percentiles, fw_percentile_row, band_low_mm, "mm", "lower end of the interval that covers at all points together");
+    FW_TABLE_NUMBERS(b, a->percentiles, fw_percentile_row, band_high_mm, "mm", "upper end of that one; NaN: does not exist");
+    FW_TABLE_NUMBERS(b, a->percentiles, fw_percentile_row, n_effective, "1",
+                     "effective sample size: of a plain sample that would know the percentile as well; NaN: nothing scatters");
     FW_TABLE_NUMBERS(b, a->percentiles, fw_percentile_row, coverage, "1", "coverage of the interval");
     const char **method = fw_table_texts(b, "method", "method of the interval");
     for (size_t i = 0; method && i < a->n_percentiles; i++) method[i] = a->percentiles[i].method;

@@ -99,14 +99,19 @@ static fw_status files_index(fw_run_files *f, bool runs_failed_again, fw_msg *m)
     return s;
 }
 
-fw_status fw_run_files_open(fw_run_files *f, const fw_campaign *c, const char *out, bool is_fresh, bool runs_failed_again, fw_msg *m)
+fw_status fw_run_files_open(fw_run_files *f, const fw_campaign *c, const char *out, bool is_fresh, bool runs_failed_again,
+                            uint64_t first_id, fw_msg *m)
 {
     *f = (fw_run_files){.campaign = c};
     FW_TRY(files_name(f, out ? out : c->name, m));
     FW_TRY(files_check_folder(f->journal_path, m));
     FW_TRY(files_check_results(f, is_fresh, m));
     FW_TRY(fw_journal_open(&f->journal, f->journal_path, c, is_fresh, m));
-    return files_index(f, runs_failed_again, m);
+    FW_TRY(files_index(f, runs_failed_again, m));
+    size_t          n;
+    const uint64_t *ids = fw_journal_ids(f->journal, &n);
+    while (f->n_before < n && ids[f->n_before] < first_id) f->n_before++;
+    return FW_OK;
 }
 
 fw_status fw_run_files_close(fw_run_files *f, fw_msg *m)
@@ -129,9 +134,15 @@ static fw_status files_flush(void *self, fw_msg *m)
     return fw_journal_flush(((fw_run_files *)self)->journal, m);
 }
 
-static fw_status files_read(void *self, uint64_t id, fw_record *r, fw_msg *m)
+/* Found anew each time: the journal may have appended since. A part's journal gets no further ids below its first one. */
+static fw_status files_read(void *self, uint64_t index, fw_record *r, fw_msg *m)
 {
-    return fw_journal_read(((fw_run_files *)self)->journal, id, r, m);
+    fw_run_files   *f = self;
+    size_t          n;
+    const uint64_t *ids = fw_journal_ids(f->journal, &n);
+
+    FW_CHECK(index < n - f->n_before, m, FW_E_ARG, "%s: no record number %llu", f->journal_path, (unsigned long long)index);
+    return fw_journal_read(f->journal, ids[f->n_before + index], r, m);
 }
 
 fw_sink fw_run_files_sink(fw_run_files *f)
@@ -139,12 +150,31 @@ fw_sink fw_run_files_sink(fw_run_files *f)
     return (fw_sink){.append = files_append, .flush = files_flush, .self = f};
 }
 
+static fw_id_span files_span(const uint64_t *ids, uint64_t n)
+{
+    fw_id_span s = {.first = ids[0], .end = ids[n - 1] + 1};
+
+    if (s.end - s.first == n) return s; /* no gap to look for */
+    for (uint64_t i = 1; i < n; i++) {
+        if (ids[i] == ids[i - 1] + 1) continue;
+        s.gap_first = ids[i - 1] + 1;
+        s.gap_end   = ids[i];
+        break;
+    }
+    return s;
+}
+
 fw_record_source fw_run_files_records(fw_run_files *f, uint64_t n)
 {
-    return (fw_record_source){.n = n, .read = files_read, .self = f};
+    size_t           n_ids;
+    const uint64_t  *ids = fw_journal_ids(f->journal, &n_ids);
+    fw_record_source s   = {.n = n, .read = files_read, .self = f};
+
+    if (n > 0 && n <= n_ids - f->n_before) s.span = files_span(ids + f->n_before, n);
+    return s;
 }
 
 fw_answer_source fw_run_files_answer(fw_run_files *f, uint64_t n)
 {
-    return (fw_answer_source){.n = n, .read = files_read, .self = f, .law = fw_campaign_law(f->campaign)};
+    return (fw_answer_source){.records = fw_run_files_records(f, n), .law = fw_campaign_law(f->campaign)};
 }

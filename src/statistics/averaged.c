@@ -3,16 +3,22 @@
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 
+double fw_averaged_kish_size(const fw_averaged_at *at)
+{
+    double plain = at->cdf * (1 - at->cdf);
+    if (isnan(at->spread.variance)) return 0;
+    if (!(plain > 1e-15) || !(at->spread.variance > 0)) return FW_AVERAGED_MOST_N;
+    return fmin(plain / at->spread.variance, FW_AVERAGED_MOST_N);
+}
+
 double fw_averaged_effective_size(const fw_averaged_at *at, double confidence)
 {
-    const double most = 1e8; /* equal F_i: the sampling error is nil; keeps the incomplete beta function in its range */
-    double       plain = at->cdf * (1 - at->cdf), upper = 0.5 + 0.5 * confidence;
-    if (isnan(at->spread.variance)) return 0;
-    if (!(plain > 1e-15) || !(at->spread.variance > 0)) return most;
-    double n = plain / at->spread.variance, of_steps = (1 - 4 * plain) / (plain * n), excess = fmax(0, at->spread.vov - of_steps);
+    double plain = at->cdf * (1 - at->cdf), upper = 0.5 + 0.5 * confidence, n = fw_averaged_kish_size(at);
+    if (!(n > 0 && n < FW_AVERAGED_MOST_N)) return n;
+    double of_steps = (1 - 4 * plain) / (plain * n), excess = fmax(0, at->spread.vov - of_steps);
     double dof = excess > 0 ? fmax(1, fmin(at->spread.dof, 2 / excess)) : at->spread.dof;
     double known = gsl_cdf_ugaussian_Pinv(upper) / gsl_cdf_tdist_Pinv(upper, dof);
-    return fmin(n * known * known, most);
+    return n * known * known;
 }
 
 /* k below n p with P(Bin(n, p) < k) + P(Bin = k) / 2 = tail, mid-P, for real n and k: between P(Bin <= k) = I_{1-p}(n - k, k + 1) and the same
@@ -51,7 +57,10 @@ fw_interval fw_averaged_interval(const fw_averaged *x, double p, double confiden
         double depth = round == 0 ? x->quantile(x->self, p) : round == 1 ? out.low : out.high;
         if (isnan(depth)) continue; /* no such end yet: nothing to look at there */
         fw_averaged_at at;
-        x->at(x->self, depth, &at);
+        if (round == 0 && x->at_percentile)
+            at = *x->at_percentile;
+        else
+            x->at(x->self, depth, &at);
         double here = of_all * fw_averaged_effective_size(&at, confidence), low_level = NAN, high_level = NAN;
         if (here >= size) continue;
         size = here;

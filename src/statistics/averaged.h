@@ -23,6 +23,8 @@
 
 /* Below this the variance of the F_i is too poorly known: no interval is offered. */
 enum { FW_AVERAGED_MIN_N = 40 };
+/* Equal F_i: the sampling error is nil; keeps the incomplete beta function in its range. */
+#define FW_AVERAGED_MOST_N 1e8
 
 /* The averaged CDF at one depth and how well it is known there. */
 typedef struct fw_averaged_at {
@@ -30,9 +32,12 @@ typedef struct fw_averaged_at {
     fw_spread spread;
 } fw_averaged_at;
 
+/* n_effective as above; 0 when the variance is not known, 1e8, the most, when there is none. */
+double fw_averaged_kish_size(const fw_averaged_at *at);
+
 /* n_effective, less what is lost by estimating the variance with few degrees of freedom: (normal quantile / t quantile)^2. Where few realisations carry the
  * variance there are fewer of them: 2 / vov, vov less that of a plain sample's steps, (1 - 4 F (1 - F)) / (n F (1 - F)), which the binomial interval
- * allows for itself. At most 1e8. */
+ * allows for itself. */
 double fw_averaged_effective_size(const fw_averaged_at *at, double confidence);
 
 /* Levels of the averaged CDF at which the ends of the p-quantile's interval lie; NAN where there is none. */
@@ -43,6 +48,7 @@ typedef struct fw_averaged {
     double (*quantile)(void *self, double level); /* of the averaged CDF; level in (0, 1] */
     void  *self;
     size_t n;            /* realisations */
+    const fw_averaged_at *at_percentile; /* known there already; NULL: it is asked for */
     double failed_share; /* of the weight, by those that failed */
 } fw_averaged;
 

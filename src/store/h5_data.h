@@ -2,7 +2,7 @@
  *
  * Every dataset has `units` (UDUNITS where it can say it) and `long_name`. Texts in attributes are UTF-8 of variable
  * length (str in h5py, no 64 KiB limit), texts in datasets have a fixed length (numpy bytes, compressible). Numbers are
- * little-endian. Big datasets are chunked along the first dimension, shuffled and deflated. */
+ * little-endian. Chunked datasets are shuffled and deflated. */
 #ifndef FW_STORE_H5_DATA_H
 #define FW_STORE_H5_DATA_H
 
@@ -28,7 +28,7 @@ fw_status fw_h5_create_group(const fw_h5_file *f, const char *name, hid_t *group
 typedef struct fw_h5_shape {
     int     rank; /* 1 .. 3 */
     hsize_t dims[3];
-    hsize_t chunk_rows; /* of the first dimension; 0: in one piece. Along the others: all, but the second of three: 1 */
+    hsize_t chunk_rows; /* of the first dimension; 0: in one piece, unpacked. Along the others: all */
     bool    is_growing; /* the first dimension has no end */
 } fw_h5_shape;
 

@@ -6,7 +6,7 @@
 #include "store/h5_data.h"
 
 enum { MAX_TEXTS = 1 << 16, MAX_TEXT_BYTES = 1 << 28 };
-enum { MAX_CHUNK_BYTES = 1 << 24 }; /* twice the largest of ours, a ring of 2^20 arcs */
+enum { MAX_CHUNK_BYTES = 1 << 24 }; /* ten times the largest of ours, 8192 causes; a frame of 2^21 floes */
 
 static fw_status bad(const fw_h5_file *f, const char *name, const char *wanted, fw_msg *m)
 {

@@ -482,6 +482,8 @@ fw_status fw_journal_facts_of(const char *path, fw_journal_facts *out, fw_msg *m
     out->n_laws = h->n_laws;
     out->n_done = j->n;
     out->prefix = j->prefix;
+    out->first = j->n > 0 ? j->ids[0] : 0;
+    out->end = j->n > 0 ? j->ids[j->n - 1] + 1 : 0;
     out->torn_bytes = j->torn_bytes;
     out->is_running = fw_file_is_locked(j->fd);
     fw_status status = FW_OK;

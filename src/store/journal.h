@@ -55,6 +55,7 @@ typedef struct fw_journal_facts {
     uint64_t n_done;           /* records, failed ones included */
     uint64_t n_failed;
     uint64_t prefix;     /* ids 0..prefix-1 are all there */
+    uint64_t first, end; /* the smallest id and one beyond the largest; both 0: none is there */
     uint64_t torn_bytes; /* at the end; a running writer may be in the middle of a commit */
     size_t   n_arcs, n_laws;
     double   host_cpu_s; /* sum over records */

@@ -3,10 +3,12 @@
  * Written as PATH.tmp, fsynced, renamed, folder fsynced: PATH is the old file or the whole new one, whatever happens.
  * Its last 32 bytes are a seal (length and CRC32C) that HDF5 ignores; a file without it or with a wrong one is not
  * read.
+ * Rings are not packed: a million records of 360 arcs are 11.5 GB, read in seconds (results_block.h says why).
  *
  *   attributes of /   filetype, format_version, code_version, git_revision, name, campaign (the file's text), sets
  *                     (--set, list), settings, settings_hash, seed, host_name, host_system, host_wall_time
- *   /realisations     id, status, cause, every column of FW_RECORD_LIST   (n)
+ *   /realisations     id, ascending: 0 .. n-1 of a whole campaign; of a part, or of merged parts, theirs   (n)
+ *                     status, cause, every column of FW_RECORD_LIST   (n)
  *                     path [km]   (n x arcs);  angle_deg, middles of the arcs   (arcs)
  *                     wear_load, wear_load_impact, wear_load_high   (n x laws x arcs), attributes exponents and laws
  *   /TABLE            one group per fw_table, its columns as datasets   (n_rows)
@@ -18,13 +20,7 @@
 #define FW_STORE_RESULTS_H
 
 #include "floewear/campaign.h"
-
-/* Where records come from in order of id: a journal, or a results file. */
-typedef struct fw_record_source {
-    uint64_t n;                                                          /* ids 0 .. n-1 */
-    fw_status (*read)(void *self, uint64_t id, fw_record *r, fw_msg *m); /* r initialised with the campaign's sizes */
-    void *self;
-} fw_record_source;
+#include "floewear/records.h"
 
 /* A finished table: a group of one-dimensional datasets of equal length. One of number, integer, text is set. */
 typedef struct fw_column {
@@ -39,9 +35,9 @@ typedef struct fw_table {
     fw_column  *columns;
 } fw_table;
 
-/* Records are asked for once each, in order of id, and go through memory in blocks of about 2 MiB per law.
+/* Records are asked for once each, in order of their index, and go through memory in blocks of about 2 MiB per law.
  * Errors: FW_E_IO: unwritable, disk full (message names path and bytes), PATH.tmp in use by another run; what the
- * source says; FW_E_ARG. On error PATH is as it was and PATH.tmp is gone. */
+ * source says; FW_E_ARG; FW_E_INTERNAL: ids that do not ascend. On error PATH is as it was and PATH.tmp is gone. */
 fw_status fw_results_write(const char *path, const fw_campaign *c, const fw_record_source *records, size_t n_tables,
                            const fw_table *tables, fw_msg *m);
 
@@ -53,6 +49,10 @@ void        fw_results_close(fw_results *r);                                /* N
 const char *fw_results_campaign_text(const fw_results *r);                  /* as the file was read; sets not applied */
 size_t      fw_results_sets(const fw_results *r, const char *const **sets); /* borrowed, for fw_config_campaign_text */
 int64_t     fw_results_seed(const fw_results *r);
+/* Its tables, for fw_tables_numbers and the like; valid until r is closed. */
+const struct fw_tables *fw_results_tables(const fw_results *r);
+fw_status   fw_results_ids(const fw_results *r, uint64_t *ids, fw_msg *m); /* all of them, ascending; before rows are lent */
+const char *fw_results_settings(const fw_results *r); /* that name the campaign, as fw_campaign has them */
 /* Reading in order of id is fast, any other order is possible. Records of other sizes than the file's: FW_E_FORMAT. */
 fw_record_source fw_results_records(fw_results *r); /* valid until r is closed */
 

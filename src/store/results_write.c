@@ -8,8 +8,6 @@
 #include "store/results_block.h"
 #include "store/tables_put.h"
 
-enum { SCALAR_CHUNK = 8192 };
-
 /* "MPa^1.121 km", or one such text per law when exponents differ: "MPa^1.121 km; MPa^1 km". */
 static void load_unit(char *text, size_t size, const fw_model *model)
 {
@@ -49,10 +47,9 @@ static fw_status create_datasets(const fw_h5_file *f, hid_t at, const fw_model *
                                  fw_results_datasets *d, fw_msg *m)
 {
     char        unit[160];
-    hsize_t     rows = fw_results_block_rows(model->n_arcs);
-    fw_h5_shape scalar = {.rank = 1, .dims = {n}, .chunk_rows = SCALAR_CHUNK};
-    fw_h5_shape path = {.rank = 2, .dims = {n, model->n_arcs}, .chunk_rows = rows};
-    fw_h5_shape ring = {.rank = 3, .dims = {n, model->n_laws, model->n_arcs}, .chunk_rows = rows};
+    fw_h5_shape scalar = {.rank = 1, .dims = {n}, .chunk_rows = FW_RESULTS_SCALAR_ROWS};
+    fw_h5_shape path = {.rank = 2, .dims = {n, model->n_arcs}};
+    fw_h5_shape ring = {.rank = 3, .dims = {n, model->n_laws, model->n_arcs}};
     FW_TRY(fw_h5_create_dataset(f, at, "id", H5T_STD_U64LE, &scalar, "1", "number of the realisation", &d->id, m));
     FW_TRY(fw_h5_create_dataset(f, at, "status", H5T_STD_I32LE, &scalar, "1",
                                 "0: done; else why the realisation failed, an index into the attribute names",
@@ -97,30 +94,55 @@ static fw_status put_angles(const fw_h5_file *f, hid_t at, size_t n_arcs, fw_msg
     return status;
 }
 
-/* Blocks of rows, so that a million records need no more memory than one block. */
-static fw_status stream_records(const fw_h5_file *f, const fw_results_datasets *d, const fw_model *model,
-                                const fw_record_source *source, fw_msg *m)
+/* Two blocks that fill up side by side and are written when they are full, so that a million records need no more memory than these. */
+typedef struct blocks {
+    fw_results_scalars scalars;
+    fw_results_rings   rings;
+} blocks;
+
+static fw_status write_full(const fw_h5_file *f, const fw_results_datasets *d, blocks *b, bool is_end, fw_msg *m)
 {
-    fw_results_block b;
-    fw_record        r;
-    FW_TRY(fw_record_init(&r, model->n_arcs, model->n_laws, m));
-    fw_status status = fw_results_block_create(&b, fw_results_block_rows(model->n_arcs), model->n_arcs, model->n_laws,
-                                               m);
-    for (b.first = 0; status == FW_OK && b.first < source->n; b.first += b.n) {
-        b.n = source->n - b.first < b.capacity ? (size_t)(source->n - b.first) : b.capacity;
-        for (size_t row = 0; row < b.n && status == FW_OK; row++) {
-            status = source->read(source->self, b.first + row, &r, m);
-            if (status == FW_OK && r.id != b.first + row) {
-                status = fw_fail(m, FW_E_INTERNAL, "asked for realisation %" PRIu64 " and was given %" PRIu64,
-                                 b.first + row, r.id);
-            }
-            if (status == FW_OK) fw_results_block_put(&b, row, &r);
-        }
-        if (status == FW_OK) status = fw_results_block_write(f, d, &b, m);
-        if (status == FW_OK)
-            status = fw_h5_file_check(f, m); /* a full disk ends it here, not after a million records */
+    if (b->scalars.n > 0 && (is_end || b->scalars.n == b->scalars.capacity)) {
+        FW_TRY(fw_results_scalars_write(f, d, &b->scalars, m));
+        b->scalars.first += b->scalars.n;
+        b->scalars.n = 0;
     }
-    fw_results_block_free(&b);
+    if (b->rings.n > 0 && (is_end || b->rings.n == b->rings.capacity)) {
+        FW_TRY(fw_results_rings_write(f, d, &b->rings, m));
+        b->rings.first += b->rings.n;
+        b->rings.n = 0;
+        FW_TRY(fw_h5_file_check(f, m)); /* a full disk ends it here, not after a million records */
+    }
+    return FW_OK;
+}
+
+static fw_status stream_records(const fw_h5_file *f, const fw_results_datasets *d, const fw_record_source *source,
+                                blocks *b, fw_record *r, fw_msg *m)
+{
+    uint64_t last = 0;
+    for (uint64_t i = 0; i < source->n; i++) {
+        FW_TRY(source->read(source->self, i, r, m));
+        FW_CHECK(i == 0 || r->id > last, m, FW_E_INTERNAL, "realisation %" PRIu64 " was given after %" PRIu64, r->id, last);
+        last = r->id;
+        fw_results_scalars_put(&b->scalars, b->scalars.n++, r);
+        fw_results_rings_put(&b->rings, b->rings.n++, r);
+        FW_TRY(write_full(f, d, b, false, m));
+    }
+    FW_TRY(write_full(f, d, b, true, m));
+    return fw_h5_file_check(f, m);
+}
+
+static fw_status put_records(const fw_h5_file *f, const fw_results_datasets *d, const fw_model *model,
+                             const fw_record_source *source, fw_msg *m)
+{
+    blocks    b = {.rings = {.path = NULL}};
+    fw_record r;
+    FW_TRY(fw_record_init(&r, model->n_arcs, model->n_laws, m));
+    fw_status status = fw_results_scalars_create(&b.scalars, source->n, m);
+    if (status == FW_OK) status = fw_results_rings_create(&b.rings, source->n, model->n_arcs, model->n_laws, m);
+    if (status == FW_OK) status = stream_records(f, d, source, &b, &r, m);
+    fw_results_scalars_free(&b.scalars);
+    fw_results_rings_free(&b.rings);
     fw_record_free(&r);
     return status;
 }
@@ -133,7 +155,7 @@ static fw_status put_realisations(const fw_h5_file *f, const fw_campaign *c, con
     fw_status status = fw_h5_create_group(f, "realisations", &group, m);
     if (status == FW_OK) status = create_datasets(f, group, &c->model, source->n, &d, m);
     if (status == FW_OK) status = put_angles(f, group, c->model.n_arcs, m);
-    if (status == FW_OK) status = stream_records(f, &d, &c->model, source, m);
+    if (status == FW_OK) status = put_records(f, &d, &c->model, source, m);
     fw_results_datasets_close(&d);
     if (group >= 0) H5Gclose(group);
     return status;

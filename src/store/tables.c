@@ -111,11 +111,6 @@ fw_status fw_tables_write(const char *path, const char *filetype, const fw_campa
 
 /* ---- reading ---------------------------------------------------------------------------------------------------- */
 
-struct fw_tables {
-    fw_h5_file file;
-    char      *settings;
-};
-
 void fw_tables_close(fw_tables *t)
 {
     if (!t) return;

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "study/rows.h"
 #include "study/service_run.h"
+#include "study/simultaneous.h"
 
 /* Options with their defaults put in, and the points they name. */
 typedef struct question {
@@ -78,19 +79,10 @@ static fw_status read_options(question *q, const fw_campaign *c, const fw_answer
     return choose_points(q, c, o, m);
 }
 
-/* Stream the records through, one in memory at a time. */
-static fw_status collect(fw_depth *d, fw_sanity *sanity, const fw_campaign *c, const fw_answer_source *source, fw_msg *m)
+static fw_status collect(fw_depth *d, fw_sanity *sanity, const fw_answer_source *source, fw_msg *m)
 {
-    fw_record r;
-    FW_TRY(fw_record_init(&r, c->model.n_arcs, c->model.n_laws, m));
-    fw_status s = FW_OK;
-    for (uint64_t id = 0; id < source->n && s == FW_OK; id++) {
-        s = source->read(source->self, id, &r, m);
-        if (s == FW_OK) s = fw_depth_add(d, &r, m);
-        if (s == FW_OK) fw_sanity_add(sanity, &r, r.weight);
-    }
-    fw_record_free(&r);
-    return s == FW_OK && d->n > 0 ? fw_depth_settle(d, source->law.point ? &source->law : NULL, sanity, m) : s;
+    FW_TRY(fw_depth_stream(d, sanity, &source->records, m));
+    return d->n > 0 ? fw_depth_settle(d, source->law.point ? &source->law : NULL, sanity, m) : FW_OK;
 }
 
 static double choose_design_percentile(const fw_campaign *c, const question *q)
@@ -106,17 +98,18 @@ static double choose_design_percentile(const fw_campaign *c, const question *q)
     return largest;
 }
 
-static void fill_percentiles(const question *q, size_t i, const fw_window *w, fw_percentile_row *rows)
+static void fill_percentiles(const question *q, size_t i, const fw_window *w, fw_simultaneous *together, fw_percentile_row *rows)
 {
     for (size_t k = 0; k < q->n_percentiles; k++) {
-        double      p = q->percentiles[k] / 100;
-        fw_interval v = fw_window_interval(w, p, q->confidence);
+        const fw_window_level *l = fw_simultaneous_add(together, w, k, q->percentiles[k] / 100);
+        fw_interval            v = fw_window_interval_at(w, l, q->confidence);
         rows[k] = (fw_percentile_row){.point = q->numbers[i],
                                       .bearing_deg = q->bearings[i],
                                       .percentile = q->percentiles[k],
-                                      .depth_mm = fw_window_percentile(w, p),
+                                      .depth_mm = l->depth,
                                       .low_mm = v.low,
                                       .high_mm = v.high,
+                                      .n_effective = fw_window_effective_size(w, l),
                                       .coverage = v.coverage,
                                       .method = fw_window_method(w)};
     }
@@ -233,29 +226,32 @@ static fw_status water_level(fw_answer *a, const fw_campaign *c, const fw_window
 }
 
 /* One point after the other, so that only one point's law is in memory. */
-static fw_status answer_points(fw_answer *a, const question *q, const fw_depth *d, fw_service_run *run, fw_msg *m)
+static fw_status answer_points(fw_answer *a, const question *q, const fw_depth *d, fw_service_run *run, fw_simultaneous *together, fw_msg *m)
 {
     fw_window w;
     for (size_t i = 0; i < q->n_points; i++) {
         FW_TRY(fw_window_make(&w, d, i, m));
-        fill_percentiles(q, i, &w, a->percentiles + i * q->n_percentiles);
+        fill_percentiles(q, i, &w, together, a->percentiles + i * q->n_percentiles);
         fill_point(q, i, &w, &a->points[i]);
         fw_status s = a->n_life ? fill_life(a, run, q, i, &w, m) : FW_OK;
         fw_window_free(&w);
         FW_TRY(s);
     }
-    return FW_OK;
+    return fw_simultaneous_end(together, q->confidence, a->percentiles, m);
 }
 
 /* The governing point's law is made again for the ledger. */
 static fw_status answer(fw_answer *a, const fw_campaign *c, const question *q, const fw_depth *d, const fw_law_factor *law, fw_msg *m)
 {
-    fw_window      w;
-    fw_service_run run;
+    fw_window       w;
+    fw_service_run  run;
+    fw_simultaneous together;
     FW_CHECK(d->n > 0, m, FW_E_FAILURES, "no realisation succeeded (%zu failed): there is nothing to answer from", d->n_failed);
     FW_TRY(allocate(a, c, q, m));
     FW_TRY(fw_service_open(&run, c, q->n_percentiles, q->percentiles, a->design_percentile, q->confidence, law, q->n_points, &a->service, m));
-    fw_status s = answer_points(a, q, d, &run, m);
+    fw_status s = fw_simultaneous_open(&together, d, q->n_percentiles, m);
+    if (s == FW_OK) s = answer_points(a, q, d, &run, &together, m);
+    fw_simultaneous_close(&together);
     fw_service_close(&run);
     FW_TRY(s);
     FW_TRY(answered_width(a, c, q->n_percentiles, m));
@@ -301,11 +297,12 @@ fw_status fw_answer_make(fw_answer *out, const fw_campaign *c, const fw_answer_s
     fw_status s = read_options(&q, c, o, m);
     if (s == FW_OK) s = fw_depth_make(&d, c, q.law, q.n_points, q.bearings, m);
     if (s == FW_OK) s = fw_sanity_begin(&sanity, c, q.law, m);
-    if (s == FW_OK) s = collect(&d, &sanity, c, source, m);
+    if (s == FW_OK) s = collect(&d, &sanity, source, m);
     if (s == FW_OK) s = fw_law_factor_make(&law, c, source, q.law, q.n_points, q.bearings, fw_service_lives(c), m);
     if (s == FW_OK) {
-        out->n = source->n;
+        out->n = source->records.n;
         out->n_failed = d.n_failed;
+        out->span = source->records.span;
         out->confidence = q.confidence;
         if (o && o->measured)
             out->measured = *o->measured;
@@ -403,7 +400,7 @@ fw_status fw_answer_reached_beside(const fw_campaign *c, const fw_answer_source 
     memset(&d, 0, sizeof d);
     fw_status s = asked_points(c, &bearings, &n, m);
     if (s == FW_OK) s = fw_depth_make(&d, c, 0, n, bearings, m);
-    if (s == FW_OK) s = collect(&d, strip, c, source, m);
+    if (s == FW_OK) s = collect(&d, strip, source, m);
     if (s == FW_OK && d.n > 0) s = measure_reached(c, &d, out, m); /* with nothing but failures the width stays infinite */
     fw_depth_free(&d);
     free(bearings);

@@ -4,19 +4,18 @@
 #define FW_STUDY_ANSWER_H
 
 #include "floewear/campaign.h"
+#include "floewear/records.h"
 #include "study/effects_ledger.h"
 #include "study/measured.h"
 #include "study/sanity.h"
 #include "study/service.h"
 #include "study/water_level.h"
 
-/* Reads record id (0 .. n-1) into r, which is initialised with the campaign's sizes. law: what the site's scenarios are drawn from, for control
- * variates; zeros: there are none. */
+/* The records that an answer is made from: every one is needed once, in order (fw_records_lend). law: what the site's scenarios
+ * are drawn from, for control variates; zeros: there are none. */
 typedef struct fw_answer_source {
-    uint64_t n;
-    fw_status (*read)(void *self, uint64_t id, fw_record *r, fw_msg *m);
-    void *self;
-    fw_scenario_law law;
+    fw_record_source records;
+    fw_scenario_law  law;
 } fw_answer_source;
 
 typedef struct fw_answer_options {
@@ -34,6 +33,8 @@ typedef struct fw_percentile_row {
     size_t      point; /* from 1 */
     double      bearing_deg, percentile;
     double      depth_mm, low_mm, high_mm; /* an end that does not exist is NAN */
+    double      band_low_mm, band_high_mm; /* of the intervals that cover at all answered points together (simultaneous.h) */
+    double      n_effective;               /* Kish's effective sample size at the percentile (statistics/averaged.h); order statistics: n; NAN: nothing scatters */
     double      coverage;                  /* attained (order statistics) or nominal (averaged CDF); NAN: no interval */
     const char *method;                    /* "order statistics" (T, direction and scenario constant), or "averaged CDF" (statistics/averaged.h says why
                                             * that and not sectioning) and what it is made with: "control variates" (study/control.h), "randomisations" */
@@ -80,6 +81,7 @@ typedef struct fw_law_scatter {
 
 typedef struct fw_answer {
     uint64_t n, n_failed;
+    fw_id_span span; /* which realisations these are, as their source says */
     double   confidence;
     double   design_percentile; /* the campaign's precision percentile, else 90 if asked for, else the largest */
     size_t   governing_point;   /* largest design percentile among the answered points, from 1 */

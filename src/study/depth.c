@@ -157,6 +157,24 @@ fw_status fw_depth_add(fw_depth *d, const fw_record *r, fw_msg *m)
     return FW_OK;
 }
 
+fw_status fw_depth_stream(fw_depth *d, fw_sanity *strip, const fw_record_source *from, fw_msg *m)
+{
+    fw_record        r;
+    const fw_record *lent;
+    size_t           n = 0;
+    FW_TRY(fw_record_init(&r, d->campaign->model.n_arcs, d->campaign->model.n_laws, m));
+    fw_status s = FW_OK;
+    for (uint64_t at = 0; at < from->n && s == FW_OK; at += n) {
+        s = fw_records_lend(from, at, &r, &lent, &n, m);
+        for (size_t i = 0; i < n && s == FW_OK; i++) {
+            s = fw_depth_add(d, &lent[i], m);
+            if (s == FW_OK && strip) fw_sanity_add(strip, &lent[i], lent[i].weight);
+        }
+    }
+    fw_record_free(&r);
+    return s;
+}
+
 /* ---- weights ----------------------------------------------------------------------------------------------------- */
 
 /* Randomisations, when every record belongs to one: numbered from 0 without gaps. Records of a plain design are units themselves. */

@@ -15,9 +15,9 @@
 #define FW_STUDY_DEPTH_H
 
 #include "floewear/campaign.h"
+#include "floewear/records.h"
+#include "statistics/averaged.h"
 #include "statistics/mixture.h"
-#include "statistics/order.h"
-#include "statistics/spread.h"
 #include "study/control.h"
 #include "study/directions.h"
 
@@ -75,6 +75,8 @@ enum { FW_DEPTH_RING_LOAD, FW_DEPTH_RING_IMPACT, FW_DEPTH_RING_HIGH, FW_DEPTH_RI
 fw_status fw_depth_make(fw_depth *out, const fw_campaign *c, size_t law, size_t n_points, const double *bearings,
                         fw_msg *m);
 fw_status fw_depth_add(fw_depth *d, const fw_record *r, fw_msg *m);
+/* All records of a source, as many in memory at a time as it lends. strip: NULL, or they are added to it. */
+fw_status fw_depth_stream(fw_depth *d, fw_sanity *strip, const fw_record_source *from, fw_msg *m);
 /* After the last record: weights. scenarios NULL: no control variates. strip: NULL, or helps them. FW_E_FAILURES when no realisation succeeded. */
 fw_status fw_depth_settle(fw_depth *d, const fw_scenario_law *scenarios, const fw_sanity *strip, fw_msg *m);
 void      fw_depth_free(fw_depth *d);
@@ -96,6 +98,18 @@ fw_status   fw_window_make(fw_window *out, const fw_depth *d, size_t point, fw_m
 void        fw_window_free(fw_window *w);
 double      fw_window_percentile(const fw_window *w, double p);                  /* p in (0, 1); [mm] */
 fw_interval fw_window_interval(const fw_window *w, double p, double confidence); /* [mm] */
+
+/* A percentile and the CDF there, which its intervals of every confidence start from. */
+typedef struct fw_window_level {
+    double         p, depth; /* [mm] */
+    fw_averaged_at at;
+} fw_window_level;
+/* values (2 x n): the first d->n_units become the units' shares in the error of the CDF there. */
+void        fw_window_look(const fw_window *w, double p, fw_window_level *out, double *values);
+fw_interval fw_window_interval_at(const fw_window *w, const fw_window_level *l, double confidence); /* [mm] */
+/* Kish's effective sample size there (statistics/averaged.h), the failed ones counted: the size of a plain sample that would know the percentile as
+ * well; NAN: nothing scatters, or too few records to tell. */
+double      fw_window_effective_size(const fw_window *w, const fw_window_level *l);
 const char *fw_window_method(const fw_window *w);                                /* of that interval */
 /* Relative variance of the variance (statistics/spread.h) that the interval of percentile p, or with NAN of the mean, is made from; 0 for order statistics. */
 double      fw_window_vov(const fw_window *w, double p);

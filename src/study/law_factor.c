@@ -46,19 +46,6 @@ static fw_status draw_all(fw_law_factor *f, const fw_campaign *c, size_t n, fw_m
 
 /* ---- mean depths of the campaign's laws ------------------------------------------------------------------------- */
 
-static fw_status collect(fw_depth *d, const fw_campaign *c, const fw_answer_source *source, fw_msg *m)
-{
-    fw_record r;
-    FW_TRY(fw_record_init(&r, c->model.n_arcs, c->model.n_laws, m));
-    fw_status s = FW_OK;
-    for (uint64_t id = 0; id < source->n && s == FW_OK; id++) {
-        s = source->read(source->self, id, &r, m);
-        if (s == FW_OK) s = fw_depth_add(d, &r, m);
-    }
-    fw_record_free(&r);
-    return s == FW_OK ? fw_depth_settle(d, source->law.point ? &source->law : NULL, NULL, m) : s;
-}
-
 /* Means of all points under one law. */
 static fw_status take_means(fw_law_factor *f, size_t node, const fw_campaign *c, const fw_answer_source *source, size_t law, size_t n_points,
                             const double *bearings, fw_msg *m)
@@ -66,7 +53,8 @@ static fw_status take_means(fw_law_factor *f, size_t node, const fw_campaign *c,
     fw_depth  d;
     fw_window w;
     FW_TRY(fw_depth_make(&d, c, law, n_points, bearings, m));
-    fw_status s = collect(&d, c, source, m);
+    fw_status s = fw_depth_stream(&d, NULL, &source->records, m);
+    if (s == FW_OK) s = fw_depth_settle(&d, source->law.point ? &source->law : NULL, NULL, m);
     for (size_t i = 0; i < n_points && s == FW_OK; i++) {
         s = fw_window_make(&w, &d, i, m);
         if (s != FW_OK) break;

@@ -83,6 +83,22 @@ static void judge(fw_levels_row *row, const fw_levels *l, bool is_strip)
     row->is_promising = !is_strip && !is_small && g->low > FW_LEVELS_WANTED && p->kurtosis < p->most_kurtosis && p->consistency < 1;
 }
 
+/* Nothing is paid for what the strip says for nothing: where control variates leave it that much, they are too few or do not know the load. */
+static void compare_with_strip(size_t n_cheap, fw_levels_way *cheap)
+{
+    const fw_levels_row *strip = NULL;
+    for (size_t k = 0; k < n_cheap; k++)
+        if (cheap[k].is_strip) strip = cheap[k].row;
+    for (size_t k = 0; k < n_cheap && strip; k++) {
+        fw_levels_row *row = cheap[k].row;
+        const fw_gain *g = &row->pairs.multifidelity;
+        if (!row->is_promising || g->gain > strip->pairs.multifidelity.gain) continue;
+        row->is_promising = false;
+        snprintf(row->verdict, sizeof row->verdict, "refused: promises x%.2f [%.2f, %.2f], and the swept strip x%.2f for nothing: a control variate is missing, no level", g->gain,
+                 g->low, g->high, strip->pairs.multifidelity.gain);
+    }
+}
+
 static fw_status compare(fw_levels *out, const fw_campaign *c, const fw_levels_way *own, size_t n_cheap, fw_levels_way *cheap, values *v, fw_msg *m)
 {
     size_t n = own->depth.n;
@@ -101,6 +117,7 @@ static fw_status compare(fw_levels *out, const fw_campaign *c, const fw_levels_w
         row->evaluations_ratio = own->evaluations / cheap[k].evaluations;
         judge(row, out, cheap[k].is_strip);
     }
+    compare_with_strip(n_cheap, cheap);
     return FW_OK;
 }
 

@@ -54,7 +54,7 @@ static fw_status try_design(fw_outlook *x, const fw_outlook_windows *w, fw_outlo
     u.campaign.sampling = design->sampling;
     for (int i = 0; i < CAMPAIGNS; i++) {
         u.campaign.seed = w->campaign->seed + 1 + (uint64_t)i;
-        fw_answer_source source = {.n = x->n_virtual, .read = read_made_up, .self = &u, .law = w->o->law};
+        fw_answer_source source = {.records = {.n = x->n_virtual, .read = read_made_up, .self = &u}, .law = w->o->law};
         FW_TRY(fw_answer_reached_beside(&u.campaign, &source, w->strip, last, m));
         widths[i] = last->half_width;
     }

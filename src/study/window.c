@@ -179,26 +179,64 @@ static fw_spread spread_of(const fw_window *w, double mean, bool is_controlled, 
  * campaign intervals of P99 from 200 windows covered 87 % for 95. Then the interval is made without them. */
 static const double FEWEST_CARRIERS = 12;
 
+/* values (n): of every realisation there, leave-one-out residuals. */
+static void cdf_with_residuals(const fw_window *w, double depth, fw_averaged_at *out, double *values)
+{
+    out->cdf = fmin(fw_window_cdfs(w, depth, values), 1);
+    bool is_controlled = w->depth->control.is_on && fmin(carriers(w, values, false), carriers(w, values, true)) >= FEWEST_CARRIERS;
+    out->spread = spread_of(w, out->cdf, is_controlled, values);
+}
+
 static void cdf_at(void *self, double depth, fw_averaged_at *out)
 {
     const fw_window *w = self;
-    const fw_depth  *d = w->depth;
-    out->cdf = fmin(fw_window_cdfs(w, depth, d->scratch), 1);
-    bool is_controlled = d->control.is_on && fmin(carriers(w, d->scratch, false), carriers(w, d->scratch, true)) >= FEWEST_CARRIERS;
-    out->spread = spread_of(w, out->cdf, is_controlled, d->scratch);
+    cdf_with_residuals(w, depth, out, w->depth->scratch);
 }
 
 static double quantile_at(void *self, double level) { return fw_window_percentile(self, level); }
 
 static double failed_share(const fw_depth *d) { return d->failed_weight / (d->weight + d->failed_weight); }
 
-fw_interval fw_window_interval(const fw_window *w, double p, double confidence)
+/* values (2 x n): the first n, residuals, become in the first n_units the units' shares in the error of the weighted mean. */
+static void share_out(const fw_units *u, double *values)
+{
+    double *sums = values + u->n;
+    for (size_t i = 0; i < u->n; i++) values[i] *= u->weight[i];
+    if (!u->unit) return;
+    for (size_t r = 0; r < u->n_units; r++) sums[r] = 0;
+    for (size_t i = 0; i < u->n; i++) sums[u->unit[i]] += values[i];
+    memcpy(values, sums, u->n_units * sizeof *values);
+}
+
+void fw_window_look(const fw_window *w, double p, fw_window_level *out, double *values)
+{
+    out->p = p;
+    out->depth = fw_window_percentile(w, p);
+    cdf_with_residuals(w, out->depth, &out->at, values);
+    share_out(&w->depth->units, values);
+}
+
+fw_interval fw_window_interval_at(const fw_window *w, const fw_window_level *l, double confidence)
 {
     const fw_depth *d = w->depth;
-    if (w->is_sample) return fw_order_interval(d->n, w->sorted, d->n_failed, p, confidence);
+    if (w->is_sample) return fw_order_interval(d->n, w->sorted, d->n_failed, l->p, confidence);
     fw_window   self = *w; /* the callbacks borrow; they change nothing but scratch */
-    fw_averaged x = {.at = cdf_at, .quantile = quantile_at, .self = &self, .n = d->n, .failed_share = failed_share(d)};
-    return fw_averaged_interval(&x, p, confidence);
+    fw_averaged x = {.at = cdf_at, .quantile = quantile_at, .self = &self, .n = d->n, .at_percentile = &l->at, .failed_share = failed_share(d)};
+    return fw_averaged_interval(&x, l->p, confidence);
+}
+
+fw_interval fw_window_interval(const fw_window *w, double p, double confidence)
+{
+    fw_window_level l;
+    fw_window_look(w, p, &l, w->depth->scratch);
+    return fw_window_interval_at(w, &l, confidence);
+}
+
+double fw_window_effective_size(const fw_window *w, const fw_window_level *l)
+{
+    const fw_depth *d = w->depth;
+    double          n = w->is_sample ? (double)(d->n + d->n_failed) : fw_averaged_kish_size(&l->at) / (1 - failed_share(d));
+    return n > 0 && n < FW_AVERAGED_MOST_N ? n : NAN;
 }
 
 const char *fw_window_method(const fw_window *w)
@@ -213,18 +251,11 @@ size_t fw_window_pseudo_values(const fw_window *w, double about, double *values)
 {
     const fw_depth *d = w->depth;
     const fw_units *u = &d->units;
-    double          units = (double)u->n_units, mean = 0, *shares = u->unit ? values + d->n : values;
+    double          mean = 0;
     for (size_t i = 0; i < d->n; i++) mean += weight_of(w, i) * values[i];
     spread_of(w, mean, d->control.has_load, values);
-    for (size_t r = 0; r < u->n_units && u->unit; r++) shares[r] = 0;
-    for (size_t i = 0; i < d->n; i++) {
-        double share = units * u->weight[i] * values[i];
-        if (u->unit)
-            shares[u->unit[i]] += share;
-        else
-            shares[i] = share;
-    }
-    for (size_t r = 0; r < u->n_units; r++) values[r] = about + shares[r];
+    share_out(u, values);
+    for (size_t r = 0; r < u->n_units; r++) values[r] = about + (double)u->n_units * values[r];
     return u->n_units;
 }
 

@@ -28,7 +28,7 @@ static void test_prefix_waits_for_the_slowest(void **state)
     uint64_t  n;
 
     (void)state;
-    assert_int_equal(fw_leases_create(&l, 2, 4, 4, false, 0, NULL, 0, NULL, NULL), FW_OK);
+    assert_int_equal(fw_leases_create(&l, 2, 0, 4, 4, false, 0, NULL, 0, NULL, NULL), FW_OK);
     assert_int_equal(take(&l, 0), 0);
     assert_int_equal(take(&l, 1), 1);
     assert_int_equal(take(&l, 1), 2);
@@ -57,7 +57,7 @@ static void test_journal_is_skipped(void **state)
     uint64_t              n;
 
     (void)state;
-    assert_int_equal(fw_leases_create(&l, 1, 10, 10, false, 6, have, 0, NULL, NULL), FW_OK);
+    assert_int_equal(fw_leases_create(&l, 1, 0, 10, 10, false, 6, have, 0, NULL, NULL), FW_OK);
     assert_int_equal(l.n_done, 5); /* 12 lies beyond the end */
     assert_int_equal(fw_leases_prefix(&l), 2);
     for (int i = 0; i < 5; i++) {
@@ -76,7 +76,7 @@ static void test_everything_is_there(void **state)
     uint64_t              n, id;
 
     (void)state;
-    assert_int_equal(fw_leases_create(&l, 3, 3, 3, true, 4, have, 0, NULL, NULL), FW_OK);
+    assert_int_equal(fw_leases_create(&l, 3, 0, 3, 3, true, 4, have, 0, NULL, NULL), FW_OK);
     assert_false(fw_leases_take(&l, 0, &id));
     assert_int_equal(fw_leases_judge(&l, &n), FW_VERDICT_LOOK); /* the end is a look too */
     assert_int_equal(n, 3);
@@ -86,13 +86,46 @@ static void test_everything_is_there(void **state)
     fw_leases_destroy(&l);
 }
 
+/* A part of a campaign: what a journal holds before and behind it, and what failed there, is of no concern. */
+static void test_a_part(void **state)
+{
+    static const uint64_t have[] = {0, 4, 11, 13, 20, 21}, have_failed[] = {0, 4, 13, 21};
+    static const uint64_t rest[] = {10, 12, 14, 15, 16, 17, 18, 19};
+    fw_leases             l;
+    uint64_t              n, id;
+
+    (void)state;
+    assert_int_equal(fw_leases_create(&l, 2, 10, 20, 1, false, 6, have, 4, have_failed, NULL), FW_OK);
+    assert_int_equal(l.n_done, 2);
+    assert_int_equal(l.n_failed, 1);
+    assert_int_equal(fw_leases_prefix(&l), 10);
+    for (size_t i = 0; i < 8; i++) {
+        assert_int_equal(take(&l, 0), rest[i]);
+        assert_int_equal(fw_leases_judge(&l, &n), FW_VERDICT_GO_ON);
+        done(&l, 0, rest[i]);
+    }
+    assert_false(fw_leases_take(&l, 1, &id));
+    assert_int_equal(fw_leases_judge(&l, &n), FW_VERDICT_END);
+    assert_int_equal(n, 20);
+    fw_leases_destroy(&l);
+
+    assert_int_equal(fw_leases_create(&l, 1, 10, 20, 0, false, 6, have, 4, have_failed, NULL), FW_OK);
+    for (id = 10; id < 13; id += 2) {
+        assert_int_equal(take(&l, 0), id);
+        done(&l, 0, id);
+    }
+    assert_int_equal(fw_leases_judge(&l, &n), FW_VERDICT_FAILED); /* by 13, not by 0 and 4 */
+    assert_int_equal(n, 14);
+    fw_leases_destroy(&l);
+}
+
 static void test_nothing_asked(void **state)
 {
     fw_leases l;
     uint64_t  n = 7;
 
     (void)state;
-    assert_int_equal(fw_leases_create(&l, 1, 0, 0, false, 0, NULL, 0, NULL, NULL), FW_OK);
+    assert_int_equal(fw_leases_create(&l, 1, 0, 0, 0, false, 0, NULL, 0, NULL, NULL), FW_OK);
     assert_int_equal(fw_leases_judge(&l, &n), FW_VERDICT_END);
     assert_int_equal(n, 0);
     fw_leases_destroy(&l);
@@ -105,7 +138,7 @@ static void test_bounded_ahead(void **state)
     uint64_t  id, n;
 
     (void)state;
-    assert_int_equal(fw_leases_create(&l, 2, 4000, 40, true, 0, NULL, 0, NULL, NULL), FW_OK);
+    assert_int_equal(fw_leases_create(&l, 2, 0, 4000, 40, true, 0, NULL, 0, NULL, NULL), FW_OK);
     assert_int_equal(take(&l, 0), 0); /* rank 0 sits on the first one */
     for (uint64_t i = 1; i < 150; i++) {
         assert_int_equal(take(&l, 1), i);
@@ -132,7 +165,7 @@ static void test_failure_limit_in_order(void **state)
     fw_msg    m;
 
     (void)state;
-    assert_int_equal(fw_leases_create(&l, 2, 1000, 1, true, 0, NULL, 0, NULL, &m), FW_OK);
+    assert_int_equal(fw_leases_create(&l, 2, 0, 1000, 1, true, 0, NULL, 0, NULL, &m), FW_OK);
     assert_int_equal(take(&l, 0), 0);
     for (uint64_t i = 1; i <= 5; i++) {
         take(&l, 1);
@@ -161,7 +194,7 @@ static void test_look_comes_before_later_failures(void **state)
 
     (void)state;
     for (uint64_t i = 0; i < 150; i++) have[i] = i;
-    assert_int_equal(fw_leases_create(&l, 1, 1000, 1, true, 150, have, 2, failed, NULL), FW_OK);
+    assert_int_equal(fw_leases_create(&l, 1, 0, 1000, 1, true, 150, have, 2, failed, NULL), FW_OK);
     assert_int_equal(fw_leases_judge(&l, &n), FW_VERDICT_LOOK);
     assert_int_equal(n, 100);
     fw_leases_looked(&l);
@@ -189,7 +222,7 @@ static fw_verdict play(uint64_t seed, int n_ranks, uint64_t enough_at, uint64_t 
         int        patience = (int)(fw_random_u32(&random) % 400);
 
         for (size_t i = 0; i < n_have; i++) is_done[have[i]] = true;
-        assert_int_equal(fw_leases_create(&l, n_ranks, 600, max_failed, true, n_have, have, n_failed, failed, NULL),
+        assert_int_equal(fw_leases_create(&l, n_ranks, 0, 600, max_failed, true, n_have, have, n_failed, failed, NULL),
                          FW_OK);
         for (;;) {
             int      rank = (int)(fw_random_u32(&random) % (uint32_t)n_ranks);
@@ -245,6 +278,7 @@ int main(void)
         cmocka_unit_test(test_prefix_waits_for_the_slowest),
         cmocka_unit_test(test_journal_is_skipped),
         cmocka_unit_test(test_everything_is_there),
+        cmocka_unit_test(test_a_part),
         cmocka_unit_test(test_nothing_asked),
         cmocka_unit_test(test_bounded_ahead),
         cmocka_unit_test(test_failure_limit_in_order),

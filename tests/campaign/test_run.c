@@ -110,6 +110,26 @@ static void test_last_look_is_the_end(void **state)
     assert_int_equal(s->rule.looks[2], 160);
 }
 
+/* A part has no looks: its ids are no prefix, whatever the rule would say of them. */
+static void test_a_part(void **state)
+{
+    scene *s = *state;
+
+    with_rule(s, 1);
+    s->run.first_id = 120;
+    s->run.end_id   = 270;
+    assert_int_equal(run(s), FW_OK);
+    assert_int_equal(s->sink.n, 150);
+    for (uint64_t i = 0; i < 150; i++) assert_int_equal(s->sink.ids[i], 120 + i);
+    assert_int_equal(s->result.n_prefix, 150);
+    assert_int_equal(s->result.n_done, 150);
+    assert_false(s->result.is_enough);
+    assert_int_equal(s->rule.n_looks, 0);
+
+    s->run.end_id = 120;
+    assert_int_equal(run(s), FW_E_ARG);
+}
+
 /* The journal of an interrupted run is given back: the missing ones are computed, the looks come as before. */
 static void test_goes_on_from_a_journal(void **state)
 {
@@ -294,6 +314,7 @@ int main(void)
         CASE(test_runs_to_the_end),
         CASE(test_stops_at_a_look),
         CASE(test_last_look_is_the_end),
+        CASE(test_a_part),
         CASE(test_goes_on_from_a_journal),
         CASE(test_nothing_left_to_do),
         CASE(test_failure_limit),

@@ -80,7 +80,7 @@ class Usage(InFolder):
     def test_no_command_and_mistyped_ones(self):
         done = call()
         self.assertEqual((done.returncode, done.stdout), (2, ""))
-        for command in ("run", "plan", "scene", "accuracy", "report", "status", "keys", "effects", "laws"):
+        for command in ("run", "plan", "scene", "accuracy", "report", "merge", "status", "keys", "effects", "laws"):
             self.assertIn(command, done.stderr)
             self.refuse(2, command + "x", piece=f"did you mean '{command}'?")
         self.refuse(2, "Q7!")
@@ -91,7 +91,7 @@ class Usage(InFolder):
             done = call(*words)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertIn("Exit codes", done.stdout)
-        for command in ("run", "plan", "scene", "report", "status", "keys", "effects", "laws"):
+        for command in ("run", "plan", "scene", "report", "merge", "status", "keys", "effects", "laws"):
             done = call(command, "--help")
             self.assertEqual((done.returncode, done.stderr), (0, ""), command)
             self.assertIn(f"Usage: floewear {command}", done.stdout)
@@ -104,7 +104,7 @@ class Usage(InFolder):
             ["scene", scene, scene], ["scene", "--interval"], ["run", small, "--time-budget", "3"], ["run", small, "--seed", "-1"],
             ["run", small, "--set", "nothing"], ["run", small, "--only-id", "1.5"], ["report", "a.h5", "--points", "0"],
             ["report", "a.h5", "--points", "1,,2"], ["report", "a.h5", "--percentiles", "100"], ["report", "a.h5", "--csv", "--json"],
-            ["status"], ["status", "a", "b"], ["keys", "x"], ["laws", "x"], ["effects", "--yaml"],
+            ["merge"], ["merge", "a.h5"], ["status"], ["status", "a", "b"], ["keys", "x"], ["laws", "x"], ["effects", "--yaml"],
         ):
             done = call(*words)
             self.assertEqual((done.returncode, done.stdout), (2, ""), words)
@@ -341,13 +341,16 @@ class Reports(InFolder):
         out = json.loads(call("report", "made.h5", "--json", "--points", "2,1", "--percentiles", "50,90").stdout)
         self.assertEqual({(r["point"], r["percentile"]) for r in out["percentiles"]}, {(1, 50), (1, 90), (2, 50), (2, 90)})
         for row in out["percentiles"]:
-            self.assertLessEqual({"point", "bearing_deg", "percentile", "depth_mm", "low_mm", "high_mm", "coverage"}, set(row))
+            self.assertLessEqual({"point", "bearing_deg", "percentile", "depth_mm", "low_mm", "high_mm", "band_low_mm", "band_high_mm", "n_effective", "coverage"}, set(row))
             self.assertEqual(row["bearing_deg"], 45 * (row["point"] - 1))  # eight points, the first one at 0 deg, clockwise
             if row["low_mm"] is not None:
                 self.assertLessEqual(row["low_mm"], row["depth_mm"])
             if row["high_mm"] is not None:
                 self.assertLessEqual(row["depth_mm"], row["high_mm"])
         self.assertLessEqual({"campaign", "n", "failed", "percentiles", "points", "service_life", "ledger"}, set(out))
+        together = call("report", "made.h5", "--simultaneous")
+        self.assertEqual((together.returncode, together.stderr), (0, ""))
+        self.assertIn("all points together]", together.stdout)
         rows = list(csv.DictReader(call("report", "made.h5", "--csv", "--points", "3", "--percentiles", "50,95").stdout.splitlines()))
         whole = json.loads(call("report", "made.h5", "--json", "--points", "3", "--percentiles", "50,95").stdout)
         self.assertEqual(len(rows), 2)

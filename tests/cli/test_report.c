@@ -36,17 +36,20 @@ static void all_forms_say_the_same(void **state)
     const size_t      points[] = {13, 6};
     fw_answer_options o = {.n_points = 2, .points = points};
     fw_answer         a;
-    char             *json, *csv, *table;
+    char             *json, *csv, *table, *together, text[128];
     assert_int_equal(fw_answer_make(&a, &c, &source, &o, NULL), FW_OK);
     write_to_text(fw_report_print_json, &c, &a, &json);
     write_to_text(fw_report_print_csv, &c, &a, &csv);
     write_to_text(fw_report_print_table, &c, &a, &table);
+    write_to_text(fw_report_print_simultaneous, &c, &a, &together);
 
     assert_true(json_number(json, "\"n\": ", 0) == 100 && json_number(json, "\"failed\": ", 0) == 0);
     for (int i = 0; i < 8; i++) {
         assert_true(json_number(json, "\"depth_mm\": ", i) == a.percentiles[i].depth_mm);
         assert_true(json_number(json, "\"low_mm\": ", i) == a.percentiles[i].low_mm);
         assert_true(json_number(json, "\"coverage\": ", i) == a.percentiles[i].coverage);
+        assert_true(json_number(json, "\"band_low_mm\": ", i) == a.percentiles[i].band_low_mm);
+        assert_true(json_number(json, "\"n_effective\": ", i) == 100);
     }
     assert_non_null(strstr(json, "\"high_mm\": null")); /* P99 of 100 */
     assert_non_null(strstr(json, "\"independent windows\""));
@@ -67,6 +70,12 @@ static void all_forms_say_the_same(void **state)
     }
     assert_int_equal(*line, 0); /* eight lines and no more */
     assert_non_null(strstr(table, "none]"));
+    snprintf(text, sizeof text, "all 2 points together (95 %%): P90 at the governing point [%.3g, %.3g] mm\n", a.percentiles[1].band_low_mm,
+             a.percentiles[1].band_high_mm);
+    assert_non_null(strstr(table, text));
+    assert_non_null(strstr(together, text));
+    assert_null(strstr(table, "all points together]"));
+    assert_non_null(strstr(together, "all points together]"));
     assert_non_null(strstr(table, "order statistics"));
     assert_non_null(strstr(table, "governing: point 13"));
     assert_non_null(strstr(table, "20000 independent windows"));
@@ -75,6 +84,7 @@ static void all_forms_say_the_same(void **state)
     free(json);
     free(csv);
     free(table);
+    free(together);
     fw_answer_free(&a);
 }
 

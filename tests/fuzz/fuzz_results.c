@@ -45,6 +45,30 @@ static bool has_same_bits(const fw_record *a, const fw_record *b)
     return memcmp(a->rings, b->rings, fw_record_n_rings(a->n_arcs, a->n_laws) * sizeof *a->rings) == 0;
 }
 
+/* Records are lent or refused, and lent ones are those that are read. */
+static void check_lent(const fw_record_source *s, const fuzz_built *b)
+{
+    fw_record        wanted;
+    const fw_record *lent;
+    size_t           n = 1;
+    fw_msg           m = {""};
+    FUZZ_LAW(fw_record_init(&wanted, b->n_arcs, b->n_laws, NULL) == FW_OK, "%zu arcs", b->n_arcs);
+    for (uint64_t at = 0; at < s->n && at < 20; at += n) {
+        double    started = fw_cpu_seconds();
+        fw_status status = s->lend(s->self, at, &lent, &n, &m);
+        if (status != FW_OK) {
+            check_refusal(status, &m, started);
+            FUZZ_LAW(!b->is_good, "%s", m.text);
+            break;
+        }
+        FUZZ_LAW(n >= 1 && at + n <= s->n, "%zu records from %llu on", n, (unsigned long long)at);
+        if (!b->is_good) continue;
+        fuzz_expected_record(b, at, &wanted);
+        FUZZ_LAW(has_same_bits(&lent[0], &wanted), "record %llu", (unsigned long long)at);
+    }
+    fw_record_free(&wanted);
+}
+
 static void check_record(const fw_record_source *s, uint64_t id, const fuzz_built *b)
 {
     fw_record r, wanted;
@@ -54,7 +78,7 @@ static void check_record(const fw_record_source *s, uint64_t id, const fuzz_buil
     FUZZ_LAW(fw_record_init(&wanted, b->n_arcs, b->n_laws, NULL) == FW_OK, "%zu arcs", b->n_arcs);
     fw_status status = s->read(s->self, id, &r, &m);
     if (status == FW_OK) {
-        FUZZ_LAW(r.id == id && (int)r.status >= 0 && r.status < FW_N_STATUS &&
+        FUZZ_LAW(r.id >= id && (int)r.status >= 0 && r.status < FW_N_STATUS &&
                      memchr(r.cause, 0, sizeof r.cause) != NULL,
                  "record %llu: id %llu, status %d", (unsigned long long)id, (unsigned long long)r.id, (int)r.status);
     } else {
@@ -85,6 +109,7 @@ static void check_accepted(fw_results *r, const fuzz_built *built)
         FUZZ_LAW(n_sets == FUZZ_N_SETS && strcmp(sets[0], "seed=7") == 0 && sets[1][0] == '\0', "%zu sets", n_sets);
         FUZZ_LAW(s.n == b->n, "%llu records", (unsigned long long)s.n);
     }
+    check_lent(&s, b);
     for (uint64_t i = 0; i < s.n && i < 20; i++) check_record(&s, i, b);
     if (s.n > 0) check_record(&s, s.n - 1, b), check_record(&s, 0, b);
 

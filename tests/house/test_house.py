@@ -42,7 +42,7 @@ MAY_INCLUDE = {
 # linker checks: the folder libraries name what they link.
 PLAIN = {"status.h"}
 SCENARIO = PLAIN | {"distribution.h", "scenario.h"}
-RUN = SCENARIO | {"record.h", "realisation.h"}
+RUN = SCENARIO | {"record.h", "records.h", "realisation.h"}
 MAY_READ = {
     "base": PLAIN,
     "geometry": PLAIN,

@@ -42,7 +42,7 @@ static fw_status look(void *self, uint64_t n, bool *is_enough, fw_msg *m)
 static fw_status run_on(session *s, fw_msg *m)
 {
     fw_run_result result;
-    FW_TRY(fw_run_files_open(&s->files, &s->campaign, NULL, false, false, m));
+    FW_TRY(fw_run_files_open(&s->files, &s->campaign, NULL, false, false, 0, m));
     fw_run run = {.campaign = &s->campaign,
                   .have = s->files.have,
                   .n_have = s->files.n_have,
@@ -101,7 +101,7 @@ static void begin_files(void *self)
 static fw_status open_files(void *self, fw_msg *m)
 {
     session *s = self;
-    return fw_run_files_open(&s->files, &s->campaign, NULL, false, false, m);
+    return fw_run_files_open(&s->files, &s->campaign, NULL, false, false, 0, m);
 }
 
 static uint64_t end_files(void *self, fw_status status)

@@ -90,6 +90,14 @@ static fw_status read_results(void *self, fw_msg *m)
         f->hash = inject_hash(f->hash, r.rings, fw_record_n_rings(N_ARCS, N_LAWS) * sizeof(double));
         f->hash = inject_hash(f->hash, r.cause, strlen(r.cause));
     }
+    const fw_record *lent;
+    size_t           n_lent = 0;
+    for (uint64_t at = 0; at < source.n && status == FW_OK; at += n_lent) {
+        status = fw_records_lend(&source, at, &r, &lent, &n_lent, m);
+        if (status != FW_OK) break;
+        f->hash = inject_hash(f->hash, lent[0].rings, n_lent * fw_record_n_rings(N_ARCS, N_LAWS) * sizeof(double)); /* they lie in one piece */
+        f->hash = inject_hash(f->hash, lent[0].cause, strlen(lent[0].cause));
+    }
     fw_record_free(&r);
     return status;
 }

@@ -254,7 +254,7 @@ static fw_status lease(void *self, fw_msg *m)
     static const uint64_t have[] = {0, 1, 4, 9}, failed[] = {1, 9};
     fw_leases            *l = self;
     uint64_t              id;
-    FW_TRY(fw_leases_create(l, 2, N_IDS, N_IDS, false, 4, have, 2, failed, m));
+    FW_TRY(fw_leases_create(l, 2, 0, N_IDS, N_IDS, false, 4, have, 2, failed, m));
     for (int rank = 0; fw_leases_take(l, rank, &id); rank = !rank)
         FW_TRY(fw_leases_done(l, rank, id, id % 2 ? "why" : NULL, m));
     return FW_OK;

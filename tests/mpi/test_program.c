@@ -93,6 +93,32 @@ static void test_same_bits_on_any_number_of_ranks(void **state)
     }
 }
 
+/* Parts run in three places and merged in any order are the campaign of one place; so is what goes on from two of them. */
+static void test_same_bits_in_parts(void **state)
+{
+    static const char *const stems[] = {"p1", "p2", "p3"}, *const ids[] = {"0:7", "7:15", "15:24"};
+    const char *const        alone[] = {FLOEWEAR, "run", path("small.yaml"), "-o", path("p0"), "--json", NULL};
+
+    (void)state;
+    assert_int_equal(fw_job_run(folder, "p0", 0, alone), 0);
+    for (int k = 0; k < 3; k++) {
+        const char *const line[] = {FLOEWEAR, "run", path("small.yaml"), "-o", path(stems[k]), "--ids", ids[k], NULL};
+
+        assert_int_equal(fw_job_run(folder, stems[k], k, line), 0);
+    }
+    const char *const merged[] = {FLOEWEAR, "merge", path("p3.h5"), path("p1.h5"), path("p2.h5"), "-o", path("pm"), "--json", NULL};
+    assert_int_equal(fw_job_run(folder, "pm", 0, merged), 0);
+    assert_true(fw_compare_results(path("p0.h5"), path("pm.h5"), 24, 360, 2));
+    assert_true(fw_compare_json(path("p0.out"), path("pm.out")));
+
+    const char *const holed[] = {FLOEWEAR, "merge", path("p1.h5"), path("p3.h5"), "-o", path("pg"), "--quiet", NULL};
+    assert_int_equal(fw_job_run(folder, "pg", 0, holed), 0);
+    const char *const going_on[] = {FLOEWEAR, "run", path("small.yaml"), "-o", path("pg"), "--json", NULL};
+    assert_int_equal(fw_job_run(folder, "pg", 2, going_on), 0);
+    assert_true(fw_compare_results(path("p0.h5"), path("pg.h5"), 24, 360, 2));
+    assert_true(fw_compare_json(path("p0.out"), path("pg.out")));
+}
+
 static void test_same_bits_with_every_further_effect(void **state)
 {
     const char *const alone[] = {FLOEWEAR, "run", path("drift.yaml"), "-o", path("d0"), "--json", NULL};
@@ -124,6 +150,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_same_bits_on_any_number_of_ranks),
+        cmocka_unit_test(test_same_bits_in_parts),
         cmocka_unit_test(test_same_bits_with_every_further_effect),
         cmocka_unit_test(test_bad_file_is_told_once),
     };

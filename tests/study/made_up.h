@@ -85,7 +85,7 @@ static inline fw_status made_up_read(void *self, uint64_t id, fw_record *r, fw_m
 
 static inline fw_answer_source made_up_source(made_up *s, uint64_t n)
 {
-    return (fw_answer_source){.n = n, .read = made_up_read, .self = s};
+    return (fw_answer_source){.records = {.n = n, .read = made_up_read, .self = s}};
 }
 
 #endif

@@ -59,7 +59,7 @@ static void constant_scenes_give_order_statistics(void **state)
     assert_true(isfinite(row_of(&a, 13, 99)->high_mm));
     fw_answer_free(&a);
 
-    source.n = 100; /* P99 has no upper end at 100 */
+    source.records.n = 100; /* P99 has no upper end at 100 */
     assert_int_equal(fw_answer_make(&a, &c, &source, NULL, NULL), FW_OK);
     assert_true(isnan(row_of(&a, 13, 99)->high_mm) && isfinite(row_of(&a, 13, 99)->low_mm));
     fw_answer_free(&a);
@@ -254,7 +254,7 @@ static void failed_runs_are_counted_at_both_ends(void **state)
     assert_int_equal(fw_answer_make(&b, &c, &with_failures, NULL, &m), FW_E_FAILURES);
     assert_int_equal(fw_answer_reached(&c, &with_failures, &r, &m), FW_OK);
     assert_true(r.half_width == INFINITY && isnan(r.value_mm) && !r.is_enough);
-    with_failures.n = 0;
+    with_failures.records.n = 0;
     assert_int_equal(fw_answer_reached(&c, &with_failures, &r, &m), FW_OK);
     assert_true(r.half_width == INFINITY && !r.is_enough);
     assert_int_equal(fw_answer_make(&b, &c, &with_failures, NULL, &m), FW_E_FAILURES);
@@ -283,14 +283,14 @@ static void the_stop_rule_asks_for_what_the_answer_says(void **state)
     CHECK_RELATIVE(ledger_of(&a, "sampling")->cost_to_halve_cpu_s, 3 * 400 * 2.0, 1e-12);
     assert_true(isnan(ledger_of(&a, "life: independent windows")->amount));
     fw_answer_free(&a);
-    source.n = 1600; /* the half-width shrinks with 1/sqrt(n) */
+    source.records.n = 1600; /* the half-width shrinks with 1/sqrt(n) */
     assert_int_equal(fw_answer_reached(&c, &source, &r, NULL), FW_OK);
     assert_true(r.half_width > 0.35 * half && r.half_width < 0.7 * half);
-    source.n = 10;
+    source.records.n = 10;
     assert_int_equal(fw_answer_reached(&c, &source, &r, NULL), FW_OK);
     assert_true(r.half_width == INFINITY);
     c.precision.quantity = FW_QUANTITY_MEAN;
-    source.n = 400;
+    source.records.n = 400;
     assert_int_equal(fw_answer_reached(&c, &source, &r, NULL), FW_OK);
     assert_true(r.half_width > 0.05 && r.half_width < 0.3); /* CV 1.3 to 1.7 over sqrt(400), times 1.96, and skewness */
 }
@@ -387,7 +387,7 @@ static void no_wear_at_all(void **state)
     fw_campaign      c = made_up_campaign(bearings);
     made_up          s = {.campaign = &c, .sigma = 1};
     fw_answer        a;
-    fw_answer_source source = {.n = 100, .read = read_zeros, .self = &s};
+    fw_answer_source source = {.records = {.n = 100, .read = read_zeros, .self = &s}};
     for (int is_integrated = 0; is_integrated < 2; is_integrated++) {
         if (is_integrated) c.site.temperature = made_up_law(FW_DIST_UNIFORM, -12, -2);
         assert_int_equal(fw_answer_make(&a, &c, &source, NULL, NULL), FW_OK);

@@ -1,8 +1,6 @@
 /* Control variates on made-up windows whose law is known (made_up_site.h): weights, what they reproduce, unbiased and narrower estimates, and intervals
- * that hold, under plain sampling and under designs in randomisations. */
-#include "study/made_up_site.h"
-
-static const double SIGMA = 0.15; /* of ln ice, as on the default campaign */
+ * that hold (under designs in randomisations: test_control_designs.c). */
+#include "study/repeats.h"
 
 /* Weighted mean over the kept records minus that over the law. */
 static double off(const fw_depth *d, double (*f)(const fw_depth *d, const fw_scenario *s))
@@ -57,98 +55,6 @@ static void weights_reproduce_the_law(void **state)
 
 /* ---- estimates and intervals ------------------------------------------------------------------------------------- */
 
-enum { N_LEVELS = 2, MEAN = N_LEVELS, N_ESTIMATES };
-static const double LEVEL[N_LEVELS] = {0.5, 0.9};
-
-typedef struct repeats {
-    double sum[N_ESTIMATES], squares[N_ESTIMATES]; /* of F at the true percentile less its level, of the mean over its truth less 1 */
-    double width[N_ESTIMATES];                     /* sums of relative half-widths */
-    size_t n, covered[N_ESTIMATES], n_controlled;
-} repeats;
-
-static void take(repeats *to, int k, double error, double truth, fw_interval v)
-{
-    to->sum[k] += error, to->squares[k] += error * error;
-    to->width[k] += 0.5 * (v.high - v.low) / truth;
-    to->covered[k] += v.low <= truth && truth <= v.high;
-}
-
-/* E D: the product of means, that of |T|^-m by closed form. */
-static double mean_depth(const fw_campaign *c)
-{
-    const double m = 1.121;
-    double       load = 0, factor = 0.116 * (pow(12, 1 - m) - pow(2, 1 - m)) / (1 - m) / 10;
-    fw_scenario  s;
-    for (uint64_t i = 0; i < SITE_LAW; i++) {
-        site_law_point(c, i, &s);
-        load += s.weight * site_load(&s);
-    }
-    return factor * load * site_shape(0, c->model.n_arcs);
-}
-
-static double truth[N_ESTIMATES]; /* by quadrature */
-
-static int find_truth(void **state)
-{
-    double      bearings[24];
-    fw_campaign c = site_campaign(bearings);
-    (void)state;
-    for (int k = 0; k < N_LEVELS; k++) truth[k] = site_percentile(&c, SIGMA, LEVEL[k]);
-    truth[MEAN] = mean_depth(&c);
-    fw_site_free(&c.site);
-    return 0;
-}
-
-static repeats repeat(const fw_campaign *c, site_way way, size_t n, const fw_scenario_law *law, size_t n_repeats)
-{
-    repeats out = {.n = n_repeats};
-    for (size_t i = 0; i < n_repeats; i++) {
-        site_records s = {.campaign = c, .way = way, .seed = 1000 + i, .sigma = SIGMA};
-        fw_depth     d;
-        fw_window    w;
-        site_depth(&d, &s, n, law, 0);
-        assert_int_equal(fw_window_make(&w, &d, 0, NULL), FW_OK);
-        out.n_controlled += d.control.is_on;
-        for (int k = 0; k < N_LEVELS; k++) take(&out, k, fw_mixture_cdf(&w.mixture, truth[k]) - LEVEL[k], truth[k], fw_window_interval(&w, LEVEL[k], 0.95));
-        take(&out, MEAN, w.moment[1] / truth[MEAN] - 1, truth[MEAN], fw_window_mean_interval(&w, 0.95));
-        fw_window_free(&w);
-        fw_depth_free(&d);
-    }
-    return out;
-}
-
-static double spread_over(const repeats *r, int k) { return sqrt(r->squares[k] / (double)r->n - pow(r->sum[k] / (double)r->n, 2)); }
-
-static const char *const NAME[N_ESTIMATES] = {"P50", "P90", "mean"};
-
-/* Within four standard errors over the repeats. The mean is off by more, to one side: without the load among the functions it goes with what was drawn, and
- * samples without fast windows are those that have no room for it. That is less than a tenth of what plain sampling scatters by. */
-static void is_unbiased(const repeats *r, const char *what, double plain_scatter)
-{
-    for (int k = 0; k < N_ESTIMATES; k++) {
-        double mean = r->sum[k] / (double)r->n, error = spread_over(r, k) / sqrt((double)r->n);
-        if (!(fabs(mean) < 4 * error + (k == MEAN ? 0.1 * plain_scatter : 0))) fail_msg("%s, %s: off by %g +- %g", what, NAME[k], mean, error);
-    }
-}
-
-/* 95 % to within three standard errors of 500 repeats. */
-static void is_covered(const repeats *r, const char *what)
-{
-    for (int k = 0; k < N_ESTIMATES; k++) {
-        double covered = (double)r->covered[k] / (double)r->n;
-        if (!(covered >= (k == MEAN ? 0.91 : 0.92) && covered <= 0.98)) fail_msg("%s, %s: covered %.3f", what, NAME[k], covered);
-    }
-}
-
-/* Percentiles scatter by less than this part of what they do without control. */
-static void is_narrower(const repeats *with, const repeats *without, const char *what, double part)
-{
-    for (int k = 0; k < N_ESTIMATES; k++) {
-        double ratio = spread_over(with, k) / spread_over(without, k);
-        if (!(ratio < part)) fail_msg("%s, %s: %.3f of the scatter without control", what, NAME[k], ratio);
-    }
-}
-
 /* With control variates as with 16 times as many windows; measured 30 to 70 times for P50 and P90. */
 static void plain_sampling(void **state)
 {
@@ -165,23 +71,6 @@ static void plain_sampling(void **state)
         is_unbiased(&without, what, 0);
         is_covered(&with, what);
         is_narrower(&with, &without, what, 0.3);
-    }
-    fw_site_free(&c.site);
-}
-
-/* What a design has gained already cannot be gained again: Sobol points know P50 twice as well as plain ones to begin with. */
-static void designs(void **state)
-{
-    enum { REPEATS = 500, FEWER = 100, N = 256 };
-    double      bearings[24];
-    fw_campaign c = site_campaign(bearings);
-    (void)state;
-    for (int way = 1; way < SITE_WAYS; way++) {
-        repeats with = repeat(&c, (site_way)way, N, &SITE, REPEATS), without = repeat(&c, (site_way)way, N, NULL, FEWER);
-        is_unbiased(&with, SITE_WAY[way], spread_over(&without, MEAN));
-        is_unbiased(&without, SITE_WAY[way], 0);
-        is_covered(&with, SITE_WAY[way]);
-        is_narrower(&with, &without, SITE_WAY[way], 0.65);
     }
     fw_site_free(&c.site);
 }
@@ -251,7 +140,7 @@ static void too_little_to_know(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(weights_reproduce_the_law), cmocka_unit_test(plain_sampling),     cmocka_unit_test(designs),
+        cmocka_unit_test(weights_reproduce_the_law), cmocka_unit_test(plain_sampling),
         cmocka_unit_test(one_scenario_has_no_control), cmocka_unit_test(too_little_to_know),
     };
     return cmocka_run_group_tests(tests, find_truth, NULL);

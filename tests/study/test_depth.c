@@ -83,7 +83,7 @@ static void one_window_does_not_stop_a_campaign(void **state)
     (void)state;
     c.precision.quantity = FW_QUANTITY_MEAN;
     c.precision.half_width = 1e6;
-    fw_answer_source source = {.n = 400, .read = read_heavy, .self = &s};
+    fw_answer_source source = {.records = {.n = 400, .read = read_heavy, .self = &s}};
     assert_int_equal(fw_answer_reached(&c, &source, &r, NULL), FW_OK);
     assert_true(r.is_enough && r.vov < FW_ANSWER_MOST_VOV && r.most_vov == FW_ANSWER_MOST_VOV);
     s.heavy = 100;
@@ -107,7 +107,7 @@ static void few_randomisations_are_allowed_more(void **state)
     (void)state;
     for (uint64_t seed = 1; seed <= CAMPAIGNS; seed++) {
         site_records     s = {.campaign = &c, .way = SITE_SKEWED, .seed = seed, .sigma = SIGMA};
-        fw_answer_source source = {.n = 320, .read = site_read, .self = &s, .law = SITE};
+        fw_answer_source source = {.records = {.n = 320, .read = site_read, .self = &s}, .law = SITE};
         fw_reached       r;
         assert_int_equal(fw_answer_reached(&c, &source, &r, NULL), FW_OK);
         CHECK_NEAR(r.most_vov, 3.0 / SITE_RANDOMISATIONS, 1e-15);
@@ -130,7 +130,7 @@ static void named_points_are_asked_alone(void **state)
     for (size_t i = 0; i < 24; i++) bearings[i] = 15.0 * (double)i;
     alone.points.n = 2, two[0] = bearings[6], two[1] = bearings[12];
     site_records     s = {.campaign = &c, .seed = 3, .sigma = SIGMA};
-    fw_answer_source source = {.n = 400, .read = site_read, .self = &s, .law = SITE};
+    fw_answer_source source = {.records = {.n = 400, .read = site_read, .self = &s}, .law = SITE};
     assert_int_equal(fw_answer_reached(&alone, &source, &of_two, NULL), FW_OK);
     assert_int_equal(fw_answer_reached(&c, &source, &of_all, NULL), FW_OK);
     c.precision.n_points = 2, c.precision.points = named;

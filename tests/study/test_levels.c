@@ -78,6 +78,14 @@ static void verdicts(void **state)
     assert_int_equal(fw_levels_compare(&l, &c, &own, 3, cheap, NULL), FW_OK);
     assert_true(!row[0].is_promising && row[0].pairs.multifidelity.low > 2);
     assert_non_null(strstr(row[0].verdict, "128 windows are too few"));
+    /* nor is anything paid for what the strip knows for nothing */
+    l.n_functions = 0;
+    memset(cheap[2].cpu_s, 0, N * sizeof *cheap[2].cpu_s);
+    cheap[2].is_strip = true;
+    assert_int_equal(fw_levels_compare(&l, &c, &own, 3, cheap, NULL), FW_OK);
+    assert_true(!row[0].is_promising && row[0].pairs.multifidelity.gain < row[2].pairs.multifidelity.gain);
+    assert_non_null(strstr(row[0].verdict, "for nothing"));
+    cheap[2].is_strip = false;
     /* a campaign that asks for a mean is about means: the one that was lifted spoils it */
     l = ask(NAN);
     assert_int_equal(fw_levels_compare(&l, &c, &own, 3, cheap, NULL), FW_OK);

@@ -57,7 +57,7 @@ static void the_strip_against_itself(void **state)
     strip_records s;
     fw_answer     a;
     assert_int_equal(fw_swept_make(&s.strip, &c.model, 0.2, 1, 0, NULL), FW_OK); /* the site's speeds, as the check takes them */
-    fw_answer_source source = {.n = N_RECORDS, .read = read_strip, .self = &s};
+    fw_answer_source source = {.records = {.n = N_RECORDS, .read = read_strip, .self = &s}};
     for (s.times = 1; s.times <= 2; s.times++) {
         assert_int_equal(fw_answer_make(&a, &c, &source, NULL, NULL), FW_OK);
         assert_int_equal(a.n_swept, 24);

@@ -101,7 +101,7 @@ static estimate answered(const fw_campaign *c, size_t point, windows *w, bool is
     fw_answer         a;
     double            p = c->precision.percentile;
     fw_answer_options o = {.n_percentiles = 1, .percentiles = &p, .n_points = 1, .points = &point, .confidence = 0.95};
-    fw_answer_source  source = {.n = w->n, .read = read_window, .self = w};
+    fw_answer_source  source = {.records = {.n = w->n, .read = read_window, .self = w}};
     if (is_controlled) source.law = fw_campaign_law(c);
     TRY(fw_answer_make(&a, c, &source, &o, &message));
     estimate e = of(a.percentiles[0].depth_mm, a.percentiles[0].low_mm, a.percentiles[0].high_mm);
