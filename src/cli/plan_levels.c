@@ -33,7 +33,7 @@ static void print_row(const fw_levels_row *r)
 
 static void print_text(const fw_campaign *c, const fw_levels *l)
 {
-    char   what[40] = "mean depth";
+    char   what[40] = "mean";
     size_t n_promising = 0;
     if (!isnan(l->percentile)) snprintf(what, sizeof what, "P%g", l->percentile);
     printf("%s: what cheaper models of the same windows would be worth beside the campaign's own\n", c->name);
