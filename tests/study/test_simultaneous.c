@@ -100,13 +100,13 @@ static void a_band_holds_the_interval_and_grows_with_confidence(void **state)
     double           bearings[N_POINTS];
     fw_campaign      c = made_up_campaign(bearings);
     made_up          s = {.campaign = &c, .sigma = 0.3, .fail_every = 150};
-    fw_answer_source source = {.n = 600, .read = quarters_read, .self = &s};
+    fw_answer_source source = {.records = {.n = 600, .read = quarters_read, .self = &s}};
     c.service.is_asked = false;
     check_band(&c, &source, "order statistics");
     c.site.temperature = made_up_law(FW_DIST_UNIFORM, -12, -2);
     c.site.direction = made_up_law(FW_DIST_NORMAL, 0, 10);
     check_band(&c, &source, "averaged CDF"); /* 596 units in 512 groups */
-    source.read = randomised_read;
+    source.records.read = randomised_read;
     check_band(&c, &source, "averaged CDF, randomisations");
 }
 
@@ -126,7 +126,7 @@ static void two_directions_are_worth_two_records(void **state)
     double           bearings[N_POINTS];
     fw_campaign      c = made_up_campaign(bearings);
     made_up          s = {.campaign = &c, .sigma = 1};
-    fw_answer_source source = {.n = 3000, .read = halves_read, .self = &s};
+    fw_answer_source source = {.records = {.n = 3000, .read = halves_read, .self = &s}};
     const double     to[] = {0, 180}, weights[] = {0.5, 0.5};
     c.service.is_asked = false;
     assert_int_equal(fw_distribution_values(&c.site.direction, 2, to, weights, NULL), FW_OK);
