@@ -13,6 +13,7 @@
 #include "cli/output.h"
 #include "cli/plan_design.h"
 #include "cli/plan_effects.h"
+#include "cli/plan_levels.h"
 #include "cli/plan_strip.h"
 #include "effects/effects.h"
 #include "floewear/campaign.h"
@@ -20,15 +21,15 @@
 #include "realisation/cost.h"
 #include "realisation/facts.h"
 
-enum { MAX_SETS = 64, KEY_SET = 1000, KEY_JSON, KEY_PILOT, KEY_SEED, KEY_ACCURACY, KEY_EFFECTS, KEY_BUDGET, KEY_WHOLE };
+enum { MAX_SETS = 64, KEY_SET = 1000, KEY_JSON, KEY_PILOT, KEY_SEED, KEY_ACCURACY, KEY_EFFECTS, KEY_BUDGET, KEY_WHOLE, KEY_LEVELS, KEY_LEVELS_BUDGET };
 
 typedef struct arguments {
     const char *campaign, *accuracy_from, *out;
     const char *sets[MAX_SETS];
     size_t      n_sets;
-    bool        is_json, is_effects, is_quiet;
+    bool        is_json, is_effects, is_levels, is_quiet;
     long        pilot, n_whole;
-    double      effects_budget_s;
+    double      effects_budget_s, levels_budget_s;
     int64_t     seed;
 } arguments;
 
@@ -38,6 +39,9 @@ static void check_options(const arguments *a, struct argp_state *state)
     if (!a->is_effects && a->effects_budget_s > 0) argp_error(state, "--effects-budget goes with --effects");
     if (!a->is_effects && a->n_whole > 0) argp_error(state, "--effects-whole goes with --effects");
     if (a->n_whole > 0 && a->effects_budget_s > 0) argp_error(state, "--effects-whole says how many windows, and so does --effects-budget: one of them");
+    if (!a->is_levels && a->levels_budget_s > 0) argp_error(state, "--levels-budget goes with --levels");
+    if (a->is_levels && a->is_effects) argp_error(state, "--levels and --effects are two studies: one of them");
+    if (a->is_levels && (a->pilot >= 0 || a->out)) argp_error(state, "%s goes without --levels, which has a pilot of its own and writes no file", a->out ? "--output" : "--pilot");
     if (a->is_effects && a->pilot >= 0) argp_error(state, "--pilot goes without --effects, which runs no pilot");
     if (a->is_effects && a->accuracy_from)
         argp_error(state, "--accuracy-from goes without --effects, which takes the numerics that are built in or stand in the campaign");
@@ -55,6 +59,8 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     case KEY_JSON: a->is_json = true; return 0;
     case KEY_ACCURACY: a->accuracy_from = arg; return 0;
     case KEY_EFFECTS: a->is_effects = true; return 0;
+    case KEY_LEVELS: a->is_levels = true; return 0;
+    case KEY_LEVELS_BUDGET: return fw_argument_duration("--levels-budget", arg, state, &a->levels_budget_s);
     case KEY_BUDGET: return fw_argument_duration("--effects-budget", arg, state, &a->effects_budget_s);
     case KEY_WHOLE:
         a->n_whole = strtol(arg, &end, 10);
@@ -87,6 +93,8 @@ static const struct argp_option OPTIONS[] = {
     {"effects", KEY_EFFECTS, NULL, 0, "measure instead what each effect and open choice moves and costs, on the same ice; writes OUT.effects.h5, which run, plan and report of this campaign show", 1},
     {"effects-budget", KEY_BUDGET, "TIME", 0, "choose the number of windows for about this much CPU time (default 5min)", 1},
     {"effects-whole", KEY_WHOLE, "N", 0, "N whole windows of the campaign instead of short ones: what those are to be checked against", 1},
+    {"levels", KEY_LEVELS, NULL, 0, "measure instead what cheaper models of the same windows would be worth beside the campaign's own (multilevel, multifidelity); writes nothing", 2},
+    {"levels-budget", KEY_LEVELS_BUDGET, "TIME", 0, "choose the number of windows for about this much CPU time (default 3min; 128 windows at least)", 2},
     {"output", 'o', "OUT", 0, "stem of the files that belong to this campaign (default: its name, in the current folder)", 0},
     {"quiet", 'q', NULL, 0, "no progress on stderr", 0},
     {"accuracy-from", KEY_ACCURACY, "FILE", 0, "numerics chosen by floewear accuracy (default: NAME.accuracy.h5, if it is there)", 0},
@@ -322,7 +330,11 @@ int fw_cmd_plan(int argc, char **argv)
                                       .n_windows = (size_t)a.n_whole,
                                       .is_json = a.is_json,
                                       .is_quiet = a.is_quiet};
-    fw_status s = a.is_effects ? fw_plan_effects(&effects, &m) : plan(&a, &m);
+    fw_plan_levels_wanted levels = {.choice = {.campaign = a.campaign, .n_sets = a.n_sets, .sets = a.sets, .seed = a.seed, .from = a.accuracy_from},
+                                    .cpu_budget_s = a.levels_budget_s,
+                                    .is_json = a.is_json,
+                                    .is_quiet = a.is_quiet};
+    fw_status s = a.is_effects ? fw_plan_effects(&effects, &m) : a.is_levels ? fw_plan_levels(&levels, &m) : plan(&a, &m);
     if (s != FW_OK) fprintf(stderr, "floewear plan: %s\n", m.text[0] ? m.text : fw_status_sentence(s));
     return fw_status_exit_code(s);
 }

@@ -120,6 +120,9 @@ size_t      fw_window_pseudo_values(const fw_window *w, double about, double *va
 /* The central value if the failed ones were all 0 (low) or all infinite (high; INFINITY when it is one of them). */
 void        fw_window_failure_ends(const fw_window *w, double p, double *low, double *high);
 
+/* values (n) := P(D <= depth) of every realisation; returns their weighted mean. */
+double      fw_window_cdfs(const fw_window *w, double depth, double *values);
+
 /* Variances of P(D <= depth) of one plain window, of its mean over temperature and direction, and of what the control variates leave. */
 typedef struct fw_window_scatter {
     double plain, averaged, controlled;

@@ -138,8 +138,7 @@ static double own_cdf(const fw_window *w, size_t i, double depth, double ln_dept
     return fmin(sum, 1);
 }
 
-/* values (n) := P(D <= depth) of every realisation; returns their weighted mean. */
-static double own_cdfs(const fw_window *w, double depth, double *values)
+double fw_window_cdfs(const fw_window *w, double depth, double *values)
 {
     double ln_depth = log(depth), sum = 0; /* -inf at 0: only loads of 0 count */
     for (size_t i = 0; i < w->depth->n; i++) {
@@ -183,7 +182,7 @@ static const double FEWEST_CARRIERS = 12;
 /* values (n): of every realisation there, leave-one-out residuals. */
 static void cdf_with_residuals(const fw_window *w, double depth, fw_averaged_at *out, double *values)
 {
-    out->cdf = fmin(own_cdfs(w, depth, values), 1);
+    out->cdf = fmin(fw_window_cdfs(w, depth, values), 1);
     bool is_controlled = w->depth->control.is_on && fmin(carriers(w, values, false), carriers(w, values, true)) >= FEWEST_CARRIERS;
     out->spread = spread_of(w, out->cdf, is_controlled, values);
 }
@@ -297,7 +296,7 @@ void fw_window_failure_ends(const fw_window *w, double p, double *low, double *h
 fw_window_scatter fw_window_scatter_at(const fw_window *w, double depth)
 {
     const fw_depth   *d = w->depth;
-    double           *f = d->scratch, mean = own_cdfs(w, depth, f), squares = 0, left = 0, n = (double)d->n;
+    double           *f = d->scratch, mean = fw_window_cdfs(w, depth, f), squares = 0, left = 0, n = (double)d->n;
     fw_window_scatter out;
     for (size_t i = 0; i < d->n; i++) squares += weight_of(w, i) * (f[i] - mean) * (f[i] - mean);
     fw_calibration_residuals(&d->control.calibration, f);
