@@ -2,6 +2,7 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <string.h>
 
 static const char *design_words(const fw_sampling *s, char *text, size_t size)
 {
@@ -108,6 +109,16 @@ static void print_precision(FILE *to, const fw_campaign *c, const fw_answer *a)
     }
 }
 
+/* The interval is the sampling's: only more windows make it narrower. */
+static void print_interval_cost(FILE *to, const fw_answer *a)
+{
+    for (size_t i = 0; i < a->n_ledger; i++) {
+        const fw_ledger_row *r = &a->ledger[i];
+        if (strcmp(r->row, "sampling") != 0 || !isfinite(r->cost_to_halve_cpu_s)) continue;
+        fprintf(to, "half that interval: %s, %.3g CPU hours\n", r->cost_to_halve, r->cost_to_halve_cpu_s / 3600);
+    }
+}
+
 static void print_advice(FILE *to, const fw_answer *a)
 {
     const fw_advice     *v = &a->advice;
@@ -127,5 +138,6 @@ void fw_report_print_summary(FILE *to, const fw_campaign *c, const fw_answer *a)
     print_governing(to, a);
     print_life(to, a);
     print_precision(to, c, a);
+    print_interval_cost(to, a);
     print_advice(to, a);
 }
