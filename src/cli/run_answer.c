@@ -7,16 +7,11 @@
 
 fw_status fw_run_answer(fw_run_files *files, uint64_t n, const fw_measured *measured, const fw_effects_ledger *effects, bool is_json, fw_msg *m)
 {
-    const fw_campaign  *c             = files->campaign;
-    fw_answer_source    source        = fw_run_files_answer(files, n);
-    static const double percentiles[] = {50, 90, 95, 99};
-    fw_answer_options   options       = {.n_percentiles = sizeof percentiles / sizeof percentiles[0],
-                                         .percentiles   = percentiles,
-                                         .confidence    = c->precision.confidence,
-                                         .measured      = measured,
-                                         .effects       = effects};
-    fw_answer           answer;
-    fw_status           status;
+    const fw_campaign *c       = files->campaign;
+    fw_answer_source   source  = fw_run_files_answer(files, n);
+    fw_answer_options  options = {.confidence = c->precision.confidence, .measured = measured, .effects = effects};
+    fw_answer          answer;
+    fw_status          status;
 
     FW_TRY(fw_answer_make(&answer, c, &source, &options, m));
     status = fw_report_write(files->results_path, c, &source.records, &answer, m);

@@ -246,14 +246,19 @@ const char *fw_window_method(const fw_window *w)
     return w->depth->control.is_on ? "averaged CDF, control variates" : "averaged CDF";
 }
 
-/* A mean goes with the load itself: without it among the control variates, its scatter is taken without them. */
+/* A mean goes with the load itself: without it among the control variates, or where few windows carry the mean, its scatter is taken without them. */
+static bool is_mean_controlled(const fw_window *w)
+{
+    return w->depth->control.has_load && carriers(w, w->means, false) >= FEWEST_CARRIERS;
+}
+
 size_t fw_window_pseudo_values(const fw_window *w, double about, double *values)
 {
     const fw_depth *d = w->depth;
     const fw_units *u = &d->units;
     double          mean = 0;
     for (size_t i = 0; i < d->n; i++) mean += weight_of(w, i) * values[i];
-    spread_of(w, mean, d->control.has_load, values);
+    spread_of(w, mean, is_mean_controlled(w), values);
     share_out(u, values);
     for (size_t r = 0; r < u->n_units; r++) values[r] = about + (double)u->n_units * values[r];
     return u->n_units;
@@ -283,7 +288,7 @@ double fw_window_vov(const fw_window *w, double p)
         return at.spread.vov;
     }
     memcpy(d->scratch, w->means, d->n * sizeof *d->scratch);
-    return spread_of(w, w->moment[1], d->control.has_load, d->scratch).vov;
+    return spread_of(w, w->moment[1], is_mean_controlled(w), d->scratch).vov;
 }
 
 void fw_window_failure_ends(const fw_window *w, double p, double *low, double *high)
