@@ -63,6 +63,8 @@ static void check_scenarios(const fw_campaign *c)
                  s.wind_speed, s.wind_angle, s.tide_phase);
         FUZZ_LAW(fw_distribution_check(fw_site_direction(&c->site, &s), NULL) == FW_OK, "directions of cell %u",
                  s.cell);
+        FUZZ_LAW(s.weight > 0 && isfinite(s.weight) && s.randomisation >= -1, "weight %g of randomisation %d", s.weight, (int)s.randomisation);
+        FUZZ_LAW(fw_campaign_stratum(c, &s) < fw_campaign_n_strata(c), "a stratum that is none of %zu", fw_campaign_n_strata(c));
     }
 }
 
