@@ -245,7 +245,7 @@ static const fw_key SAMPLING[] = {
      "how scenarios are drawn; auto: as the pilot of floewear plan chose, else plain"},
     COUNT("randomisations", n_randomisations, "32", FROM_TO(16, 1024), "independent ones of a design that is not plain; intervals are made from their scatter"),
     {"scramble", FW_KEY_CHOICE, AT(scramble), NULL, "owen", ANY, "owen|digital_shift", "of Sobol points"},
-    SHAPED("allocation", "", "list of shares", "stratified: share of the realisations for every stratum; left out: as often as the site has it"),
+    SHAPED("allocation", "", "list of shares", "stratified: share of the realisations for every stratum, as OUT.plan.h5 lists them; left out: as often as the site has it"),
 };
 SECTION(fw_table_sampling, "sampling", "how scenarios are drawn", SAMPLING);
 
