@@ -229,7 +229,7 @@ static void json_ledger(fw_json *j, const fw_answer *a)
 static void json_advice(fw_json *j, const fw_answer *a)
 {
     const fw_advice *v = &a->advice;
-    fw_json_key(j, "advice");
+    fw_json_key(j, "cpu_advice"); /* which row pays best follows from a clock */
     fw_json_begin_object(j);
     number(j, "doubt", v->total);
     string(j, "largest", v->largest < a->n_ledger ? a->ledger[v->largest].row : "");
