@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "statistics/calibrate.h"
 #include "statistics/near.h"
 
 enum { REPEATS = 2000 };
@@ -65,7 +66,6 @@ static void coverage_holds_where_it_is_offered(void **state)
             }
             double got = (double)hit / REPEATS;
             if (!(got >= 0.92 && got <= 0.98)) fail_msg("law %d, n = %zu: coverage %g", law, ns[k], got);
-            print_message("law %d, n = %zu: coverage %g\n", law, ns[k], got);
         }
 }
 
@@ -90,8 +90,45 @@ static void means_of_randomisations_need_fewer(void **state)
             }
             double got = (double)hit / REPEATS;
             if (!(got >= 0.92 && got <= 0.98)) fail_msg("law %d, %zu randomisations: coverage %g", law, ns[k], got);
-            print_message("law %d, %zu randomisations: coverage %g\n", law, ns[k], got);
         }
+}
+
+/* Load = scenario (a draw of the law) x ice (lognormal, 20 %), the scenario's load and its square root as control variates, whose means are those of the law. */
+static void coverage_holds_with_control_variates(void **state)
+{
+    (void)state;
+    enum { MOST = 400, P = 2, GRID = 20000 };
+    const size_t ns[] = {150, MOST};
+    static double x[MOST], basis[MOST * P], plain[MOST], y[MOST];
+    for (int law = 0; law < N_LAWS; law++) {
+        double totals[P] = {law_mean((test_law)law), 0}, truth = totals[0] * exp(0.02);
+        for (int i = 0; i < GRID; i++) totals[1] += sqrt(law_draw((test_law)law, (i + 0.5) / GRID)) / GRID;
+        for (size_t k = 0; k < 2; k++) {
+            int       hit = 0;
+            fw_random r;
+            fw_random_stream(&r, 5, FW_STREAM_TEST, ns[k], (uint64_t)law);
+            for (int repeat = 0; repeat < REPEATS; repeat++) {
+                fw_calibration c;
+                double         mean = 0;
+                for (size_t i = 0; i < ns[k]; i++) {
+                    double scenario = law_draw((test_law)law, fw_random_uniform(&r));
+                    basis[i * P] = scenario, basis[i * P + 1] = sqrt(scenario);
+                    x[i] = scenario * lognormal_quantile(0.2, fw_random_uniform(&r));
+                    plain[i] = 1 / (double)ns[k];
+                }
+                assert_int_equal(fw_calibration_make(&c, ns[k], plain, P, basis, totals, NULL), FW_OK);
+                for (size_t i = 0; i < ns[k]; i++) mean += c.weight[i] * x[i];
+                memcpy(y, x, sizeof y);
+                fw_calibration_residuals(&c, y);
+                for (size_t i = 0; i < ns[k]; i++) y[i] = mean + (double)ns[k] * c.weight[i] * y[i];
+                fw_interval v = fw_mean_interval_about(mean, ns[k], y, 0, 0, 0.95);
+                hit += v.low <= truth && truth <= v.high;
+                fw_calibration_free(&c);
+            }
+            double got = (double)hit / REPEATS;
+            if (!(got >= 0.92 && got <= 0.98)) fail_msg("law %d, n = %zu: coverage %g", law, ns[k], got);
+        }
+    }
 }
 
 static void symmetric_samples_give_students_interval(void **state)
@@ -133,6 +170,7 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(coverage_holds_for_skew_laws),
                                        cmocka_unit_test(coverage_holds_where_it_is_offered),
                                        cmocka_unit_test(means_of_randomisations_need_fewer),
+                                       cmocka_unit_test(coverage_holds_with_control_variates),
                                        cmocka_unit_test(symmetric_samples_give_students_interval),
                                        cmocka_unit_test(failed_runs_and_ugly_samples)};
     return cmocka_run_group_tests(tests, NULL, NULL);
