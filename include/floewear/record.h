@@ -89,6 +89,12 @@ static inline const double *fw_record_load(const fw_record *r, size_t law, int w
 fw_status fw_record_init(fw_record *r, size_t n_arcs, size_t n_laws, fw_msg *m); /* zeroed rings */
 void      fw_record_free(fw_record *r);                                          /* zeroed struct is fine */
 
+/* The scenario's columns of a record, and a scenario from them. */
+void        fw_record_take_scenario(fw_record *r, const fw_scenario *s);
+fw_scenario fw_record_scenario(const fw_record *r, uint64_t seed);
+/* Mean wear load over the ring [MPa^m km]. */
+double      fw_record_mean_load(const fw_record *r, size_t law);
+
 /* Little-endian bytes, fixed size for given n_arcs and n_laws. Failed records carry zero rings. */
 size_t    fw_record_packed_size(size_t n_arcs, size_t n_laws);
 void      fw_record_pack(const fw_record *r, unsigned char *bytes);

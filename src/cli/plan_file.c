@@ -16,8 +16,7 @@ static void fill_pilot(pilot_row *rows, size_t n, const fw_record *pilot)
 {
     for (size_t i = 0; i < n; i++) {
         const fw_record *r = &pilot[i];
-        rows[i] = (pilot_row){(double)r->id, r->speed, r->concentration, r->mix, 0, r->force_evaluations, r->host_cpu_s};
-        for (size_t k = 0; k < r->n_arcs; k++) rows[i].ring_load += fw_record_load(r, 0, FW_RING_LOAD)[k] / (double)r->n_arcs;
+        rows[i] = (pilot_row){(double)r->id, r->speed, r->concentration, r->mix, fw_record_mean_load(r, 0), r->force_evaluations, r->host_cpu_s};
     }
 }
 

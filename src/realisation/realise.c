@@ -11,13 +11,7 @@
 
 static void describe(fw_record *rec, const fw_window_run *r, const fw_scenario *sc, double warm_up)
 {
-    rec->id = sc->id;
-    rec->concentration = sc->concentration;
-    rec->speed = sc->speed;
-    rec->mix = sc->mix;
-    rec->cell = sc->cell;
-    rec->wind_speed = sc->wind_speed, rec->wind_angle = sc->wind_angle, rec->tide_phase = sc->tide_phase;
-    rec->weight = sc->weight, rec->randomisation = sc->randomisation;
+    fw_record_take_scenario(rec, sc);
     rec->window = r->model->window;
     rec->warm_up = warm_up;
     if (!r->ice.field) return;

@@ -33,6 +33,37 @@ const size_t fw_n_record_columns = sizeof fw_record_columns / sizeof fw_record_c
 /* More than any campaign has by orders of magnitude; keeps every product of sizes below far from overflow. */
 enum { MAX_ARCS = 1 << 24 };
 
+void fw_record_take_scenario(fw_record *r, const fw_scenario *s)
+{
+    r->id = s->id;
+    r->concentration = s->concentration, r->speed = s->speed, r->mix = s->mix, r->cell = s->cell;
+    r->wind_speed = s->wind_speed, r->wind_angle = s->wind_angle, r->tide_phase = s->tide_phase;
+    r->weight = s->weight, r->randomisation = s->randomisation;
+}
+
+fw_scenario fw_record_scenario(const fw_record *r, uint64_t seed)
+{
+    return (fw_scenario){.seed = seed,
+                         .id = r->id,
+                         .concentration = r->concentration,
+                         .speed = r->speed,
+                         .mix = (uint32_t)r->mix,
+                         .cell = (uint32_t)r->cell,
+                         .wind_speed = r->wind_speed,
+                         .wind_angle = r->wind_angle,
+                         .tide_phase = r->tide_phase,
+                         .weight = r->weight,
+                         .randomisation = (int32_t)r->randomisation};
+}
+
+double fw_record_mean_load(const fw_record *r, size_t law)
+{
+    double        sum = 0;
+    const double *load = fw_record_load(r, law, FW_RING_LOAD);
+    for (size_t k = 0; k < r->n_arcs; k++) sum += load[k];
+    return r->n_arcs ? sum / (double)r->n_arcs : 0;
+}
+
 fw_status fw_record_init(fw_record *r, size_t n_arcs, size_t n_laws, fw_msg *m)
 {
     memset(r, 0, sizeof *r);

@@ -70,21 +70,8 @@ static fw_status keep(fw_depth *d, const fw_record *r, size_t direction_law, dou
     const double        *ring = fw_record_load(r, d->law, FW_RING_LOAD);
     FW_TRY(fw_grow(&d->row, &d->capacity_row, d->n + 1, sizeof *d->row, "records", m));
     FW_TRY(fw_grow(&d->load, &d->capacity_load, (d->n + 1) * q->n_used, sizeof *d->load, "wear loads of records", m));
-    d->row[d->n] = (fw_depth_row){.scenario = {.seed = d->campaign->seed,
-                                               .id = r->id,
-                                               .concentration = r->concentration,
-                                               .speed = r->speed,
-                                               .mix = (uint32_t)r->mix,
-                                               .cell = (uint32_t)direction_law,
-                                               .wind_speed = r->wind_speed,
-                                               .wind_angle = r->wind_angle,
-                                               .tide_phase = r->tide_phase,
-                                               .weight = r->weight,
-                                               .randomisation = (int32_t)r->randomisation},
-                                  .ring_load = ring_load,
-                                  .thickness = r->wear_thickness,
-                                  .direction_law = (uint32_t)direction_law,
-                                  .number = number};
+    d->row[d->n] = (fw_depth_row){fw_record_scenario(r, d->campaign->seed), ring_load, r->wear_thickness, number};
+    d->row[d->n].scenario.cell = (uint32_t)direction_law;
     double *load = d->load + d->n * q->n_used;
     for (size_t k = 0; k < q->n_used; k++) load[k] = ring[q->used[k]];
     if (!d->scale.is_discrete) {

@@ -25,10 +25,9 @@ enum { FW_DEPTH_MOST_LOADS = 1 << 24 };
 
 /* One record as far as it is kept. */
 typedef struct fw_depth_row {
-    fw_scenario scenario;
+    fw_scenario scenario;  /* its cell is the row of directions: 0 without a joint table */
     double      ring_load; /* mean over the ring [MPa^m km] */
     double      thickness; /* of what wore [m] */
-    uint32_t    direction_law;
     uint64_t    number; /* of the records that did not fail of its randomisation, from 0 */
 } fw_depth_row;
 

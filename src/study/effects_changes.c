@@ -28,7 +28,7 @@ static size_t count_atoms(const fw_effects_arm *arm, size_t point, size_t n, con
 {
     size_t sum = 0, one = 0;
     for (size_t i = 0; i < n; i++) {
-        fw_directions_row(&arm->depth.directions, arm->depth.row[arm->row[windows[i]]].direction_law, point, &one);
+        fw_directions_row(&arm->depth.directions, arm->depth.row[arm->row[windows[i]]].scenario.cell, point, &one);
         sum += one;
     }
     return sum;
@@ -53,7 +53,7 @@ static fw_status make_law(law *x, const fw_effects_arm *arm, size_t point, size_
     for (size_t i = 0; i < n; i++) {
         size_t                     r = arm->row[windows[i]];
         const double              *load = d->load + r * d->directions.n_used;
-        const fw_direction_weight *row = fw_directions_row(&d->directions, d->row[r].direction_law, point, &n_row);
+        const fw_direction_weight *row = fw_directions_row(&d->directions, d->row[r].scenario.cell, point, &n_row);
         for (size_t k = 0; k < n_row; k++) {
             double one = load[row[k].column];
             x->means[i] += row[k].weight * one * y->moment[1];

@@ -10,28 +10,6 @@
 #include "realisation/cost.h"
 #include "study/outlook_inside.h"
 
-static fw_scenario scenario_of(const fw_campaign *c, const fw_record *r)
-{
-    return (fw_scenario){.seed = c->seed,
-                         .id = r->id,
-                         .concentration = r->concentration,
-                         .speed = r->speed,
-                         .mix = (uint32_t)r->mix,
-                         .cell = (uint32_t)r->cell,
-                         .wind_speed = r->wind_speed,
-                         .wind_angle = r->wind_angle,
-                         .tide_phase = r->tide_phase,
-                         .weight = 1,
-                         .randomisation = -1};
-}
-
-static double ring_mean(const fw_record *r)
-{
-    double sum = 0;
-    for (size_t k = 0; k < r->n_arcs; k++) sum += fw_record_load(r, 0, FW_RING_LOAD)[k];
-    return r->n_arcs ? sum / (double)r->n_arcs : 0;
-}
-
 static fw_status fit(fw_outlook_windows *w, size_t n, const fw_record *pilot, fw_msg *m)
 {
     fw_scenario *scenarios = NULL;
@@ -40,7 +18,7 @@ static fw_status fit(fw_outlook_windows *w, size_t n, const fw_record *pilot, fw
     fw_status    s = fw_alloc(&scenarios, n, sizeof *scenarios, "scenarios of the pilot", m);
     if (s == FW_OK) s = fw_alloc(&load, n, sizeof *load, "loads of the pilot", m);
     for (size_t i = 0; i < n && s == FW_OK; i++)
-        if (pilot[i].status == FW_OK) scenarios[good] = scenario_of(w->campaign, &pilot[i]), load[good++] = ring_mean(&pilot[i]);
+        if (pilot[i].status == FW_OK) scenarios[good] = fw_record_scenario(&pilot[i], w->campaign->seed), load[good++] = fw_record_mean_load(&pilot[i], 0);
     if (s == FW_OK) s = fw_emulator_fit(&w->emulator, w->campaign, w->strip, good, scenarios, load, m);
     free(scenarios);
     free(load);
@@ -78,7 +56,7 @@ static void fit_bare(fw_outlook_windows *w, size_t k, size_t n, const fw_record 
 {
     double load = 0, all = 0;
     for (size_t i = 0; i < n; i++)
-        if (pilot[i].status == FW_OK) load += fw_record_load(&pilot[i], 0, FW_RING_LOAD)[k], all += ring_mean(&pilot[i]);
+        if (pilot[i].status == FW_OK) load += fw_record_load(&pilot[i], 0, FW_RING_LOAD)[k], all += fw_record_mean_load(&pilot[i], 0);
     w->shape[k * FW_OUTLOOK_SHAPE] = load > 0 ? log(load / all) : 0;
     w->scatter[k] = load > 0 ? 0.5 : NAN;
 }
@@ -89,7 +67,7 @@ static bool fit_arc(fw_outlook_windows *w, size_t k, size_t n, const fw_record *
     double worn = 0, all = 0, chi2;
     for (size_t i = 0; i < n; i++) {
         const fw_record *r = &pilot[i];
-        double           load = r->status == FW_OK ? fw_record_load(r, 0, FW_RING_LOAD)[k] : 0, mean = ring_mean(r), share = load > 0 ? mean : 0;
+        double           load = r->status == FW_OK ? fw_record_load(r, 0, FW_RING_LOAD)[k] : 0, mean = fw_record_mean_load(r, 0), share = load > 0 ? mean : 0;
         gsl_matrix_set(f->X, i, 0, 1);
         gsl_matrix_set(f->X, i, 1, log(r->concentration));
         gsl_matrix_set(f->X, i, 2, log(fmax(r->speed, FW_SLOWEST)));
@@ -119,7 +97,7 @@ static fw_status take_cost(fw_outlook_windows *w, size_t n, const fw_record *pil
 {
     double spent = 0, expected = 0;
     for (size_t i = 0; i < n; i++) {
-        fw_scenario s = scenario_of(w->campaign, &pilot[i]);
+        fw_scenario s = fw_record_scenario(&pilot[i], w->campaign->seed);
         double      one;
         FW_TRY(fw_cost_expected(&w->campaign->model, &s, &one, m));
         spent += pilot[i].force_evaluations, expected += one;
@@ -167,10 +145,8 @@ void fw_outlook_windows_draw(const fw_outlook_windows *w, const fw_scenario *s, 
         const double *b = w->shape + k * FW_OUTLOOK_SHAPE;
         load[k] = isnan(w->scatter[k]) ? 0 : level * exp(b[0] + b[1] * ln_c + b[2] * ln_u + w->scatter[k] * noise);
     }
-    r->id = s->id, r->status = FW_OK;
-    r->concentration = s->concentration, r->speed = s->speed, r->mix = s->mix, r->cell = s->cell;
-    r->wind_speed = s->wind_speed, r->wind_angle = s->wind_angle, r->tide_phase = s->tide_phase;
-    r->weight = s->weight, r->randomisation = s->randomisation;
+    fw_record_take_scenario(r, s);
+    r->status = FW_OK;
 }
 
 fw_status fw_outlook_windows_cost(const fw_outlook_windows *w, const fw_scenario *s, double *evaluations, fw_msg *m)

@@ -84,7 +84,7 @@ static void record_squares(const fw_window *w, double *out)
     const fw_depth *d = w->depth;
     for (size_t i = 0; i < d->n; i++) {
         size_t                     n = 0;
-        const fw_direction_weight *row = fw_directions_row(&d->directions, d->row[i].direction_law, w->point, &n);
+        const fw_direction_weight *row = fw_directions_row(&d->directions, d->row[i].scenario.cell, w->point, &n);
         const double              *load = d->load + i * d->directions.n_used;
         out[i] = 0;
         for (size_t k = 0; k < n; k++) out[i] += row[k].weight * load[row[k].column] * load[row[k].column] * d->scale.moment[2];

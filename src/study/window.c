@@ -12,7 +12,7 @@ static const fw_direction_weight *row_of(const fw_window *w, size_t i, size_t *n
 {
     const fw_depth *d = w->depth;
     *load = d->load + i * d->directions.n_used;
-    return fw_directions_row(&d->directions, d->row[i].direction_law, w->point, n);
+    return fw_directions_row(&d->directions, d->row[i].scenario.cell, w->point, n);
 }
 
 static double weight_of(const fw_window *w, size_t i) { return w->depth->control.calibration.weight[i]; }
