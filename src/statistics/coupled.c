@@ -1,5 +1,6 @@
 #include "statistics/coupled.h"
 
+#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -40,12 +41,6 @@ static double multilevel(const sums *s)
     return s->ee > 0 ? s->ee * s->dear_cost / (both * both) : NAN;
 }
 
-static int compare_doubles(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static fw_status resample(const fw_coupled_pairs *x, const fw_paired_draws *draws, double confidence, double (*gain)(const sums *s), fw_gain *out, fw_msg *m)
 {
     sums    all = sum_up(x, NULL);
@@ -58,7 +53,7 @@ static fw_status resample(const fw_coupled_pairs *x, const fw_paired_draws *draw
         double g = gain(&s);
         if (!isnan(g)) values[n++] = g; /* a resample of pairs that do not scatter knows nothing */
     }
-    qsort(values, n, sizeof *values, compare_doubles);
+    gsl_sort(values, 1, n);
     size_t k = (size_t)floor((double)(n + 1) * (1 - confidence) / 2);
     if (n > 0 && k < 1) k = 1;
     if (n > 0) out->low = values[k - 1], out->high = values[n - k];

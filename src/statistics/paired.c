@@ -1,6 +1,7 @@
 #include "statistics/paired.h"
 
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -26,12 +27,6 @@ void fw_paired_draws_free(fw_paired_draws *d)
     *d = (fw_paired_draws){.n = 0};
 }
 
-static int compare_doubles(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* A bootstrap-t may go as far as this times Student's t: single resamples of skew pairs know next to no scatter of their own, and at 48 pairs one such
  * made the interval a hundred times wider in one case of fifty. Coverage is the same at 2.5 as without. */
 static const double FARTHEST = 2.5;
@@ -39,7 +34,7 @@ static const double FARTHEST = 2.5;
 /* The k-th smallest and the k-th largest of the resamples, k = (B + 1) (1 - confidence) / 2. */
 static void ends_of(double *values, double confidence, double *low, double *high)
 {
-    qsort(values, FW_PAIRED_RESAMPLES, sizeof *values, compare_doubles);
+    gsl_sort(values, 1, FW_PAIRED_RESAMPLES);
     size_t k = (size_t)floor((FW_PAIRED_RESAMPLES + 1) * (1 - confidence) / 2);
     if (k < 1) k = 1;
     *low = values[k - 1], *high = values[FW_PAIRED_RESAMPLES - k];

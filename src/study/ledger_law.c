@@ -1,14 +1,9 @@
 /* Rows of the ledger: the abrasion law, and the years of a life. */
+#include <gsl/gsl_sort.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "study/ledger_inside.h"
-
-static int compare_doubles(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 /* The scatter alone is exact; coefficient and exponent come in draws. */
 static fw_status take_law(const fw_campaign *c, const fw_law_factor *law, size_t i, fw_law_scatter *out, fw_msg *m)
@@ -24,7 +19,7 @@ static fw_status take_law(const fw_campaign *c, const fw_law_factor *law, size_t
     fw_law_factor_of_point(law, i, factor);
     *out = (fw_law_scatter){.is_given = true};
     for (size_t k = 0; k < law->n; k++) out->mean += factor[k] / (double)law->n;
-    qsort(factor, law->n, sizeof *factor, compare_doubles);
+    gsl_sort(factor, 1, law->n);
     out->median = fw_order_percentile(law->n, factor, 0.5);
     out->low = fw_order_percentile(law->n, factor, 0.025);
     out->high = fw_order_percentile(law->n, factor, 0.975);

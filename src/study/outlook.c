@@ -1,5 +1,6 @@
 #include "study/outlook.h"
 
+#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -40,12 +41,6 @@ static fw_status read_made_up(void *self, uint64_t id, fw_record *r, fw_msg *m)
     return FW_OK;
 }
 
-static int compare_doubles(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* The median half-width of a few campaigns: one that has no interval yet must not spoil it. */
 static fw_status try_design(fw_outlook *x, const fw_outlook_windows *w, fw_outlook_design *design, fw_reached *last, fw_msg *m)
 {
@@ -58,7 +53,7 @@ static fw_status try_design(fw_outlook *x, const fw_outlook_windows *w, fw_outlo
         FW_TRY(fw_answer_reached_beside(&u.campaign, &source, w->strip, last, m));
         widths[i] = last->half_width;
     }
-    qsort(widths, CAMPAIGNS, sizeof *widths, compare_doubles);
+    gsl_sort(widths, 1, CAMPAIGNS);
     design->half_width = 0.5 * (widths[CAMPAIGNS / 2 - 1] + widths[CAMPAIGNS / 2]);
     design->evaluations = u.evaluations / ((double)CAMPAIGNS * (double)x->n_virtual);
     return FW_OK;

@@ -1,5 +1,6 @@
 /* One point's life: percentiles, fan, allowance, intervals. */
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -130,12 +131,6 @@ static fw_status set_intervals(const fw_service_run *s, const fw_window *w, cons
     return status;
 }
 
-static int compare_doubles(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* ---- rows -------------------------------------------------------------------------------------------------------- */
 
 static void fill_rows(fw_service_run *s, bool has_law, fw_life_row *rows)
@@ -144,7 +139,7 @@ static void fill_rows(fw_service_run *s, bool has_law, fw_life_row *rows)
     size_t        skip = s->n_percentiles - s->n_asked;
     double        low = NAN, high = NAN;
     if (has_law) {
-        qsort(s->factor, s->law->n, sizeof *s->factor, compare_doubles);
+        gsl_sort(s->factor, 1, s->law->n);
         low = fw_order_percentile(s->law->n, s->factor, 0.5 - 0.5 * s->confidence);
         high = fw_order_percentile(s->law->n, s->factor, 0.5 + 0.5 * s->confidence);
     }

@@ -1,3 +1,4 @@
+#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,12 +17,6 @@ static const fw_direction_weight *row_of(const fw_window *w, size_t i, size_t *n
 }
 
 static double weight_of(const fw_window *w, size_t i) { return w->depth->control.calibration.weight[i]; }
-
-static int compare_doubles(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 /* Per realisation: mean depth; over all: the raw moments of depth (Y and arc independent). */
 static void take_moments(fw_window *w)
@@ -74,7 +69,7 @@ static fw_status make(fw_window *w, fw_msg *m)
     if (!w->is_sample) return make_mixture(w, m);
     FW_TRY(fw_alloc(&w->sorted, d->n, sizeof *w->sorted, "depths of a measuring point", m));
     memcpy(w->sorted, w->means, d->n * sizeof *w->sorted); /* one arc, one temperature: the mean is the value */
-    qsort(w->sorted, d->n, sizeof *w->sorted, compare_doubles);
+    gsl_sort(w->sorted, 1, d->n);
     return FW_OK;
 }
 
