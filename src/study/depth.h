@@ -88,6 +88,7 @@ typedef struct fw_window {
     size_t          point; /* from 0 */
     bool            is_sample;
     double         *means;  /* (n) each kept realisation's mean depth [mm], in order of id; owned */
+    double         *squares; /* (n) and its mean square [mm2]; owned */
     double         *sorted; /* (n) ascending when is_sample; owned */
     fw_mixture      mixture;
     double          moment[1 + FW_SCALE_MOMENTS]; /* E D^k [mm^k] of the window depth */
@@ -110,9 +111,9 @@ fw_interval fw_window_interval_at(const fw_window *w, const fw_window_level *l, 
  * well; NAN: nothing scatters, or too few records to tell. */
 double      fw_window_effective_size(const fw_window *w, const fw_window_level *l);
 const char *fw_window_method(const fw_window *w);                                /* of that interval */
-/* Relative variance of the variance (statistics/spread.h) that the interval of percentile p, or with NAN of the mean, is made from; 0 for order statistics. */
-double      fw_window_vov(const fw_window *w, double p);
 fw_interval fw_window_mean_interval(const fw_window *w, double confidence);      /* [mm] */
+/* Relative variance of the variance (statistics/spread.h) that the mean's interval is made from; that of a percentile is in its level. 0 for order statistics. */
+double      fw_window_mean_vov(const fw_window *w);
 /* values (2 x n; of the first n each realisation's own number) become values whose plain mean is about and whose scatter is that of what the control
  * variates leave: each realisation's, or each randomisation's, share in a weighted mean. Returns their number. */
 size_t      fw_window_pseudo_values(const fw_window *w, double about, double *values);
@@ -122,9 +123,9 @@ void        fw_window_failure_ends(const fw_window *w, double p, double *low, do
 /* values (n) := P(D <= depth) of every realisation; returns their weighted mean. */
 double      fw_window_cdfs(const fw_window *w, double depth, double *values);
 
-/* Variances of P(D <= depth) of one plain window, of its mean over temperature and direction, and of what the control variates leave. */
+/* Variances between windows of P(D <= depth), temperature and direction integrated: of all of it, and of what the control variates leave. */
 typedef struct fw_window_scatter {
-    double plain, averaged, controlled;
+    double averaged, controlled;
 } fw_window_scatter;
 fw_window_scatter fw_window_scatter_at(const fw_window *w, double depth);
 

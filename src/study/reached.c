@@ -60,12 +60,17 @@ static fw_status measure_width(const fw_campaign *c, const fw_depth *d, size_t p
 {
     fw_window w;
     FW_TRY(fw_window_make(&w, d, point, m));
-    bool        is_mean = c->precision.quantity == FW_QUANTITY_MEAN;
-    double      p = c->precision.percentile / 100;
-    fw_interval v = is_mean ? fw_window_mean_interval(&w, c->precision.confidence)
-                            : fw_window_interval(&w, p, c->precision.confidence);
-    *out = width_of(is_mean ? w.moment[1] : fw_window_percentile(&w, p), v.low, v.high);
-    *vov = fw_window_vov(&w, is_mean ? NAN : p);
+    if (c->precision.quantity == FW_QUANTITY_MEAN) {
+        fw_interval v = fw_window_mean_interval(&w, c->precision.confidence);
+        *out = width_of(w.moment[1], v.low, v.high);
+        *vov = fw_window_mean_vov(&w);
+    } else {
+        fw_window_level l;
+        fw_window_look(&w, c->precision.percentile / 100, &l, d->scratch);
+        fw_interval v = fw_window_interval_at(&w, &l, c->precision.confidence);
+        *out = width_of(l.depth, v.low, v.high);
+        *vov = w.is_sample ? 0 : l.at.spread.vov; /* order statistics have no variance to know */
+    }
     fw_window_free(&w);
     return FW_OK;
 }

@@ -79,25 +79,12 @@ static double year_of_share(size_t n_years, const double *used, double share)
 
 /* ---- intervals --------------------------------------------------------------------------------------------------- */
 
-/* Each record's E D^2 [mm^2], like its E D in w->means. */
-static void record_squares(const fw_window *w, double *out)
-{
-    const fw_depth *d = w->depth;
-    for (size_t i = 0; i < d->n; i++) {
-        size_t                     n = 0;
-        const fw_direction_weight *row = fw_directions_row(&d->directions, d->row[i].scenario.cell, w->point, &n);
-        const double              *load = d->load + i * d->directions.n_used;
-        out[i] = 0;
-        for (size_t k = 0; k < n; k++) out[i] += row[k].weight * load[row[k].column] * load[row[k].column] * d->scale.moment[2];
-    }
-}
-
 /* What the records leave open. values (2 x n): scratch. */
-static fw_interval by_records(const fw_window *w, const fw_life_slopes *slopes, double depth, const double *squares, double *values, double confidence)
+static fw_interval by_records(const fw_window *w, const fw_life_slopes *slopes, double depth, double *values, double confidence)
 {
     const fw_depth *d = w->depth;
     double          none = fmax(0, depth - slopes->first * w->moment[1] - slopes->second * w->moment[2]);
-    for (size_t i = 0; i < d->n; i++) values[i] = slopes->first * w->means[i] + slopes->second * squares[i];
+    for (size_t i = 0; i < d->n; i++) values[i] = slopes->first * w->means[i] + slopes->second * w->squares[i];
     size_t      n = fw_window_pseudo_values(w, depth, values);
     fw_interval v = fw_life_interval(depth, n, values, d->unit ? 0 : d->n_failed, none, d->unit ? FW_LIFE_UNITS : FW_LIFE_RECORDS, confidence);
     if (d->unit && d->n_failed) v.low *= d->weight / (d->weight + d->failed_weight), v.high = NAN;
@@ -107,17 +94,14 @@ static fw_interval by_records(const fw_window *w, const fw_life_slopes *slopes, 
 /* For the asked percentiles of the life: of the records, and of the table of years where there is one. */
 static fw_status set_intervals(const fw_service_run *s, const fw_window *w, const fw_life_spread *l, fw_life_row *rows, double *years_half, fw_msg *m)
 {
-    size_t  n = w->depth->n;
-    double *squares = NULL, *sums = NULL, mean = s->scores.mean, variance = s->scores.variance;
-    FW_TRY(fw_alloc(&squares, 3 * n, sizeof *squares, "squared depths of records", m));
-    fw_status status = fw_alloc(&sums, s->years.n, sizeof *sums, "winters of a table", m);
-    record_squares(w, squares);
-    for (size_t k = 0; status == FW_OK && s->years.is_table && k < s->years.n; k++)
+    double *values = w->depth->scratch, *sums = NULL, mean = s->scores.mean, variance = s->scores.variance;
+    FW_TRY(fw_alloc(&sums, s->years.n, sizeof *sums, "winters of a table", m));
+    for (size_t k = 0; s->years.is_table && k < s->years.n; k++)
         sums[k] = fw_scores_sum(&s->scores, s->campaign->service.persistence, (double)s->kinds[k].windows);
-    for (size_t k = 0; status == FW_OK && k < s->n_asked; k++) {
+    for (size_t k = 0; k < s->n_asked; k++) {
         double         depth = rows[k].depth_mm;
         fw_life_slopes slopes = fw_life_slopes_make(l, mean, variance, depth);
-        fw_interval    v = by_records(w, &slopes, depth, squares, squares + n, s->confidence);
+        fw_interval    v = by_records(w, &slopes, depth, values, s->confidence);
         if (s->years.is_table) {
             fw_interval by_years = fw_life_years_interval(&s->years, sums, mean, variance, depth, s->confidence);
             v = fw_life_both(depth, v, by_years);
@@ -126,9 +110,8 @@ static fw_status set_intervals(const fw_service_run *s, const fw_window *w, cons
         rows[k].low_mm = mean > 0 ? v.low : NAN;
         rows[k].high_mm = mean > 0 ? v.high : NAN;
     }
-    free(squares);
     free(sums);
-    return status;
+    return FW_OK;
 }
 
 /* ---- rows -------------------------------------------------------------------------------------------------------- */

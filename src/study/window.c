@@ -36,6 +36,7 @@ static void take_moments(fw_window *w)
         }
         for (int k = 1; k <= FW_SCALE_MOMENTS; k++) sum[k] += weight_of(w, i) * own[k];
         w->means[i] = own[1] * d->scale.moment[1];
+        w->squares[i] = own[2] * d->scale.moment[2];
     }
     w->moment[0] = 1;
     for (int k = 1; k <= FW_SCALE_MOMENTS; k++) w->moment[k] = sum[k] * d->scale.moment[k];
@@ -65,6 +66,7 @@ static fw_status make(fw_window *w, fw_msg *m)
 {
     const fw_depth *d = w->depth;
     FW_TRY(fw_alloc(&w->means, d->n, sizeof *w->means, "mean depths of a measuring point", m));
+    FW_TRY(fw_alloc(&w->squares, d->n, sizeof *w->squares, "squared depths of a measuring point", m));
     take_moments(w);
     if (!w->is_sample) return make_mixture(w, m);
     FW_TRY(fw_alloc(&w->sorted, d->n, sizeof *w->sorted, "depths of a measuring point", m));
@@ -96,6 +98,7 @@ void fw_window_free(fw_window *w)
 {
     if (!w) return;
     free(w->means);
+    free(w->squares);
     free(w->sorted);
     fw_mixture_free(&w->mixture);
     memset(w, 0, sizeof *w);
@@ -272,18 +275,12 @@ fw_interval fw_window_mean_interval(const fw_window *w, double confidence)
     return v;
 }
 
-double fw_window_vov(const fw_window *w, double p)
+double fw_window_mean_vov(const fw_window *w)
 {
-    const fw_depth *d = w->depth;
-    fw_averaged_at  at;
-    fw_window       self = *w;
+    double *values = w->depth->scratch;
     if (w->is_sample) return 0;
-    if (!isnan(p)) {
-        cdf_at(&self, fw_window_percentile(w, p), &at);
-        return at.spread.vov;
-    }
-    memcpy(d->scratch, w->means, d->n * sizeof *d->scratch);
-    return spread_of(w, w->moment[1], is_mean_controlled(w), d->scratch).vov;
+    memcpy(values, w->means, w->depth->n * sizeof *values);
+    return spread_of(w, w->moment[1], is_mean_controlled(w), values).vov;
 }
 
 void fw_window_failure_ends(const fw_window *w, double p, double *low, double *high)
@@ -301,7 +298,6 @@ fw_window_scatter fw_window_scatter_at(const fw_window *w, double depth)
     for (size_t i = 0; i < d->n; i++) squares += weight_of(w, i) * (f[i] - mean) * (f[i] - mean);
     fw_calibration_residuals(&d->control.calibration, f);
     for (size_t i = 0; i < d->n; i++) left += weight_of(w, i) * f[i] * f[i];
-    out.plain = mean * (1 - mean);
     out.averaged = squares * n / (n - 1);
     out.controlled = left;
     return out;
