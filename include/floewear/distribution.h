@@ -46,6 +46,7 @@ double fw_distribution_cdf_left(const fw_distribution *d, double x); /* P(X < x)
 double fw_distribution_mean(const fw_distribution *d);
 double fw_distribution_min(const fw_distribution *d); /* ends of the support, may be infinite */
 double fw_distribution_max(const fw_distribution *d);
+bool   fw_distribution_is_constant(const fw_distribution *d); /* both are one value */
 
 fw_status fw_distribution_copy(fw_distribution *to, const fw_distribution *from, fw_msg *m);
 void      fw_distribution_free(fw_distribution *d); /* frees what it owns, not d; a zeroed struct is fine */

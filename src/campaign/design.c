@@ -210,11 +210,9 @@ static const uint64_t LAW_RANDOMISATION = UINT64_C(1) << 40;
 
 static bool has_weather(const fw_campaign *c) { return (c->model.effects & (FW_EFFECT_WIND | FW_EFFECT_TIDE)) != 0; }
 
-static bool is_constant(const fw_distribution *d) { return fw_distribution_min(d) == fw_distribution_max(d); }
-
 static bool has_one_scenario(const fw_campaign *c)
 {
-    return !c->site.n_cells && !has_weather(c) && is_constant(&c->site.speed) && is_constant(&c->site.concentration) && c->model.n_mixes == 1;
+    return !c->site.n_cells && !has_weather(c) && fw_distribution_is_constant(&c->site.speed) && fw_distribution_is_constant(&c->site.concentration) && c->model.n_mixes == 1;
 }
 
 static void design_law_cell(const fw_campaign *c, uint64_t i, fw_scenario *out)
@@ -233,7 +231,7 @@ static void design_law_point(const fw_campaign *c, uint64_t i, fw_scenario *out)
 
     *out = (fw_scenario){.seed = c->seed, .id = i, .weight = has_one_scenario(c) ? 1 : 1.0 / LAW_POINTS, .randomisation = -1};
     fw_sobol_point(i, N_UNIFORMS, FW_SCRAMBLE_OWEN, c->seed, LAW_RANDOMISATION, point);
-    if (!c->site.n_cells && !is_constant(&c->site.speed)) { /* one point in each n-th of v, which has this share of the levels */
+    if (!c->site.n_cells && !fw_distribution_is_constant(&c->site.speed)) { /* one point in each n-th of v, which has this share of the levels */
         double slot = floor(point[0] * LAW_POINTS);
         out->weight = law_level((slot + 1) / LAW_POINTS) - law_level(slot / LAW_POINTS);
         point[0] = fmin(law_level(point[0]), 1 - 0x1p-53); /* 1 has no quantile */

@@ -4,8 +4,6 @@
 
 enum { MOST_VALUES = 8, MOST_BINS = 32 };
 
-static bool is_constant(const fw_distribution *d) { return fw_distribution_min(d) == fw_distribution_max(d); }
-
 static fw_bins even_bins(size_t n)
 {
     fw_bins b = {.n = n};
@@ -16,12 +14,12 @@ static fw_bins even_bins(size_t n)
 static fw_bins bins_of_speed(const fw_distribution *d)
 {
     static const fw_bins fine = {.n = 8, .edge = {0, 0.25, 0.5, 0.65, 0.75, 0.85, 0.92, 0.97, 1}};
-    return is_constant(d) ? even_bins(1) : fine;
+    return fw_distribution_is_constant(d) ? even_bins(1) : fine;
 }
 
 static fw_bins bins_of_concentration(const fw_distribution *d)
 {
-    if (is_constant(d)) return even_bins(1);
+    if (fw_distribution_is_constant(d)) return even_bins(1);
     if (d->kind != FW_DIST_VALUES || d->n > MOST_VALUES) return even_bins(4);
     fw_bins b = {0};
     for (size_t i = 0; i < d->n; i++) { /* values outside of the law's limits have no share, and values may come twice */

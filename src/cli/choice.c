@@ -236,7 +236,7 @@ static fw_status find_design(const fw_campaign *c, const fw_choice_wanted *w, fw
 /* ---- all of them ------------------------------------------------------------------------------------------------- */
 
 /* A set that the rules refuse (something else needs what was to be left out) is not taken. */
-static fw_status apply_both(fw_campaign *c, const fw_choice_wanted *w, extra *x, fw_choice *out, fw_msg *m)
+static fw_status apply_all(fw_campaign *c, const fw_choice_wanted *w, extra *x, fw_choice *out, fw_msg *m)
 {
     fw_msg    why = {""};
     fw_status s = apply(c, w, x, &why);
@@ -258,7 +258,7 @@ fw_status fw_choice_campaign(fw_campaign *c, const fw_choice_wanted *w, fw_choic
     fw_status s = find_numerics(c, w, out, &x.numerics, m);
     if (s == FW_OK) s = find_effects(c, w, out, x.effects, sizeof x.effects, m);
     if (s == FW_OK) s = find_design(c, w, out, &x.design, m);
-    if (s == FW_OK) s = apply_both(c, w, &x, out, m);
+    if (s == FW_OK) s = apply_all(c, w, &x, out, m);
     free(x.design);
     if (s != FW_OK) fw_campaign_free(c);
     return s;

@@ -131,9 +131,6 @@ static fw_status expect(const fw_campaign *c, expected *e, fw_msg *m)
     return FW_OK;
 }
 
-/* About what a core of 2020 does in a second, at 40 to 80 % ice. */
-static const double EVALUATIONS_PER_S = 1.3e7;
-
 /* On or off, and why (FW_REASON_SIZE): the rule's own words, or that the file overrides them. */
 static bool effect_state(const fw_campaign *c, const fw_scene_facts *f, const fw_choice *choice, const fw_effect *e, char *reason)
 {
@@ -239,7 +236,7 @@ static void print_text(const arguments *a, const fw_campaign *c, const fw_scene_
     for (size_t i = 0; i < n_lines; i++)
         printf("  %-13s %10.4g %-4s  %s\n", lines[i].name, lines[i].value, lines[i].unit, lines[i].why);
     printf("\ncost model: %.2g force evaluations a window in the mean, %.2g at most: about %.2g and %.2g CPU s\n", of->mean, of->most,
-           of->mean / EVALUATIONS_PER_S, of->most / EVALUATIONS_PER_S);
+           of->mean / FW_PLAN_EVALUATIONS_PER_S, of->most / FW_PLAN_EVALUATIONS_PER_S);
     if (c->model.max_evaluations > 0)
         printf("  one that takes more than %.3g fails (exposure.max_force_evaluations)\n", c->model.max_evaluations);
     else

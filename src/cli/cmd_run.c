@@ -20,6 +20,7 @@
 #include "cli/output.h"
 #include "cli/progress_line.h"
 #include "cli/record_print.h"
+#include "cli/report_summary.h"
 #include "cli/run_answer.h"
 #include "cli/run_files.h"
 
@@ -104,15 +105,6 @@ typedef struct run_session {
     uint64_t           estimated_n;
 } run_session;
 
-static void run_quantity(const fw_campaign *c, char *out, size_t size)
-{
-    if (c->precision.quantity == FW_QUANTITY_MEAN) {
-        snprintf(out, size, "mean");
-    } else {
-        snprintf(out, size, "P%g", c->precision.percentile);
-    }
-}
-
 /* "P90 2.31e-04 mm +- 12 %, point 5" from the first n realisations. */
 static fw_status run_estimate(run_session *s, uint64_t n, char *out, size_t size, fw_msg *m)
 {
@@ -122,13 +114,12 @@ static fw_status run_estimate(run_session *s, uint64_t n, char *out, size_t size
     char               quantity[32], interval[32];
 
     FW_TRY(fw_answer_reached(c, &source, &r, m));
-    run_quantity(c, quantity, sizeof quantity);
     if (!isfinite(r.half_width)) {
         snprintf(interval, sizeof interval, "+- ?");
     } else {
         snprintf(interval, sizeof interval, r.half_width < 0.1 ? "+- %.2g %%" : "+- %.0f %%", 100.0 * r.half_width);
     }
-    snprintf(out, size, "%s %.3g mm %s, point %zu", quantity, r.value_mm, interval, r.point);
+    snprintf(out, size, "%s %.3g mm %s, point %zu", fw_report_quantity(c, quantity, sizeof quantity), r.value_mm, interval, r.point);
     return FW_OK;
 }
 

@@ -5,10 +5,9 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "cli/report_summary.h"
 #include "realisation/cost.h"
 
-/* About what a core of 2020 does in a second, at 40 to 80 % ice. */
-static const double EVALUATIONS_PER_S = 1.3e7;
 static const double PILOT_S = 200; /* expected of all its windows */
 enum { FEWEST_PILOT = 24 };
 
@@ -34,7 +33,7 @@ fw_status fw_plan_pilot(const fw_campaign *c, long n, bool is_quiet, fw_record *
         fw_campaign_plain_scenario(c, *n_pilot, &sc);
         s = fw_cost_expected(&c->model, &sc, &one, m);
         evaluations += one;
-        if (n < 0 && evaluations > PILOT_S * EVALUATIONS_PER_S) break;
+        if (n < 0 && evaluations > PILOT_S * FW_PLAN_EVALUATIONS_PER_S) break;
         if (s == FW_OK) s = fw_realise(&c->model, &sc, NULL, &(*pilot)[*n_pilot], m);
         if (s == FW_OK) ++*n_pilot;
         if (!is_quiet && *n_pilot % 16 == 0) fprintf(stderr, "pilot: %zu of %zu windows\n", *n_pilot, most);
@@ -103,7 +102,8 @@ static void print_width(FILE *to, double width)
 
 static void print_designs(FILE *to, const fw_campaign *c, const fw_outlook *x)
 {
-    fprintf(to, "\ndesign of the sampling, by %d made-up campaigns of %zu realisations each\n  %-24s half-width  evaluations  CPU hours for the same half-width\n", 8,
+    fprintf(to, "\ndesign of the sampling, by %d made-up campaigns of %zu realisations each\n  %-24s half-width  evaluations  CPU hours for the same half-width\n",
+            (int)FW_OUTLOOK_CAMPAIGNS,
             x->n_virtual, "");
     for (size_t i = 0; i < x->n_designs; i++) {
         const fw_outlook_design *d = &x->design[i];
@@ -128,14 +128,14 @@ static void print_hours(FILE *to, double cpu_s)
 
 void fw_plan_design_print(FILE *to, const fw_campaign *c, const fw_outlook *x, const fw_plan_forecast *f, size_t n_wanted_pilot)
 {
-    char quantity[32] = "mean";
-    if (c->precision.quantity == FW_QUANTITY_PERCENTILE) snprintf(quantity, sizeof quantity, "P%g", c->precision.percentile);
+    char quantity[32];
     print_pilot(to, x, n_wanted_pilot);
     if (x->is_known) print_designs(to, c, x);
     if (x->n_pilot == 0) return;
     fprintf(to, "\nforecast\n");
     if (isfinite(f->n_wanted))
-        fprintf(to, "  %.0f realisations reach a half-width of %.3g %% of %s at the worst of the points%s\n", f->n_wanted, 100 * c->precision.half_width, quantity,
+        fprintf(to, "  %.0f realisations reach a half-width of %.3g %% of %s at the worst of the points%s\n", f->n_wanted, 100 * c->precision.half_width,
+                fw_report_quantity(c, quantity, sizeof quantity),
                 f->n_wanted > (double)c->precision.max_realisations ? ": more than max_realisations" : "");
     fprintf(to, "  a run of %.0f realisations", f->n);
     if (isfinite(f->half_width)) fprintf(to, ": half-width about %.2g %%", 100 * f->half_width);

@@ -15,6 +15,9 @@
 #include "store/tables.h"
 #include "study/outlook.h"
 
+/* About what a core of 2020 does in a second, at 40 to 80 % ice. */
+#define FW_PLAN_EVALUATIONS_PER_S 1.3e7
+
 typedef struct fw_plan_forecast {
     double n, half_width, cpu_s; /* realisations of the run, what they reach, cost */
     double n_wanted;             /* realisations that the precision wants; NAN: none is asked, or not known */

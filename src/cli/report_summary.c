@@ -94,13 +94,21 @@ static void print_life(FILE *to, const fw_answer *a)
     }
 }
 
+const char *fw_report_quantity(const fw_campaign *c, char *text, size_t size)
+{
+    if (c->precision.quantity == FW_QUANTITY_MEAN)
+        snprintf(text, size, "mean");
+    else
+        snprintf(text, size, "P%g", c->precision.percentile);
+    return text;
+}
+
 static void print_precision(FILE *to, const fw_campaign *c, const fw_answer *a)
 {
-    char quantity[32] = "mean";
+    char quantity[32];
     if (!(c->precision.half_width > 0)) return;
-    if (c->precision.quantity == FW_QUANTITY_PERCENTILE) snprintf(quantity, sizeof quantity, "P%g", c->precision.percentile);
     if (c->precision.quantity == FW_QUANTITY_PERCENTILE && a->design_percentile != c->precision.percentile) return;
-    fprintf(to, "precision: %s asked to +- %.3g %%, reached ", quantity, 100 * c->precision.half_width);
+    fprintf(to, "precision: %s asked to +- %.3g %%, reached ", fw_report_quantity(c, quantity, sizeof quantity), 100 * c->precision.half_width);
     if (isfinite(a->half_width)) {
         fprintf(to, "+- %.3g %% at the worst of the points%s\n", 100 * a->half_width,
                 a->half_width <= c->precision.half_width ? "" : " (not enough realisations)");

@@ -7,6 +7,9 @@
 
 #include "study/answer.h"
 
+/* What precision is about: "mean", or "P90". Returns text. */
+const char *fw_report_quantity(const fw_campaign *c, char *text, size_t size);
+
 void fw_report_print_summary(FILE *to, const fw_campaign *c, const fw_answer *a);
 
 #endif

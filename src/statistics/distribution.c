@@ -357,6 +357,8 @@ double fw_distribution_max(const fw_distribution *d)
     return NAN;
 }
 
+bool fw_distribution_is_constant(const fw_distribution *d) { return fw_distribution_min(d) == fw_distribution_max(d); }
+
 /* ---- means: the partial first moment over [from, to] has a closed form in every law here
  * --------------------------- */
 

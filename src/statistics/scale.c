@@ -82,7 +82,7 @@ static fw_status make(fw_scale *s, fw_msg *m)
         discrete_moments(s);
         return FW_OK;
     }
-    if (!T || fw_distribution_min(T) == fw_distribution_max(T)) {
+    if (!T || fw_distribution_is_constant(T)) {
         FW_TRY(make_atoms(s, 1, m));
         s->n = 1;
         s->values[0] = T ? factor_at(s, fw_distribution_max(T)) : s->coefficient;

@@ -42,10 +42,10 @@ static void hats(const functions *f, double x, double *values)
     values[k] = 1 - part, values[k + 1] = part;
 }
 
-static void evaluate(const functions *f, const fw_scenario *s, double *values)
+/* ln_load: the emulator's, of the scenario. */
+static void evaluate(const functions *f, const fw_scenario *s, double ln_load, double *values)
 {
     size_t n = n_shapes(f), at = n;
-    double ln_load = fw_emulator_ln_load(f->emulator, s);
     hats(f, ln_load, values);
     if (f->has_load) values[f->n_knots] = exp(ln_load - f->knot[f->n_knots - 1]);
     for (size_t h = 0; h < 2 * f->n_harmonics; h++)
@@ -138,10 +138,10 @@ static fw_status calibrate(fw_control *x, const functions *f, size_t n_law, cons
     if (s == FW_OK) s = fw_alloc(&totals, p, sizeof *totals, "means of functions", m);
     if (s == FW_OK) s = fw_alloc(&values, p, sizeof *values, "functions of a scenario", m);
     for (size_t i = 0; i < n_law && s == FW_OK; i++) {
-        evaluate(f, &law[i].scenario, values);
+        evaluate(f, &law[i].scenario, law[i].ln_load, values);
         for (size_t k = 0; k < p; k++) totals[k] += law[i].scenario.weight * values[k];
     }
-    for (size_t i = 0; i < n && s == FW_OK; i++) evaluate(f, &scenarios[i], basis + i * p);
+    for (size_t i = 0; i < n && s == FW_OK; i++) evaluate(f, &scenarios[i], fw_emulator_ln_load(f->emulator, &scenarios[i]), basis + i * p);
     if (s == FW_OK) s = fw_calibration_make(&x->calibration, n, plain, p, basis, totals, m);
     if (s == FW_OK) take_range(x);
     if (s == FW_OK && x->least < LEAST_WEIGHT) s = rake(x, m);

@@ -15,7 +15,7 @@ size_t fw_directions_arc(size_t n_arcs, double bearing, double direction)
 
 static bool is_atoms(const fw_distribution *law)
 {
-    return law->kind == FW_DIST_VALUES || fw_distribution_min(law) == fw_distribution_max(law);
+    return law->kind == FW_DIST_VALUES || fw_distribution_is_constant(law);
 }
 
 static void weigh_atoms(const fw_distribution *law, size_t n_arcs, double bearing, double *weight)

@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "study/outlook_inside.h"
 
-enum { VIRTUAL = 400, FEWEST_VIRTUAL = 100, CAMPAIGNS = 8, FIRST_LOOK = 100 };
+enum { VIRTUAL = 400, FEWEST_VIRTUAL = 100, FIRST_LOOK = 100 };
 /* What another design has to pay more than plain sampling. */
 static const double PAYS = 1.1;
 
@@ -45,17 +45,17 @@ static fw_status read_made_up(void *self, uint64_t id, fw_record *r, fw_msg *m)
 static fw_status try_design(fw_outlook *x, const fw_outlook_windows *w, fw_outlook_design *design, fw_reached *last, fw_msg *m)
 {
     made_up u = {.campaign = *w->campaign, .windows = w};
-    double  widths[CAMPAIGNS];
+    double  widths[FW_OUTLOOK_CAMPAIGNS];
     u.campaign.sampling = design->sampling;
-    for (int i = 0; i < CAMPAIGNS; i++) {
+    for (int i = 0; i < FW_OUTLOOK_CAMPAIGNS; i++) {
         u.campaign.seed = w->campaign->seed + 1 + (uint64_t)i;
         fw_answer_source source = {.records = {.n = x->n_virtual, .read = read_made_up, .self = &u}, .law = w->o->law};
         FW_TRY(fw_answer_reached_beside(&u.campaign, &source, w->strip, last, m));
         widths[i] = last->half_width;
     }
-    gsl_sort(widths, 1, CAMPAIGNS);
-    design->half_width = 0.5 * (widths[CAMPAIGNS / 2 - 1] + widths[CAMPAIGNS / 2]);
-    design->evaluations = u.evaluations / ((double)CAMPAIGNS * (double)x->n_virtual);
+    gsl_sort(widths, 1, FW_OUTLOOK_CAMPAIGNS);
+    design->half_width = 0.5 * (widths[FW_OUTLOOK_CAMPAIGNS / 2 - 1] + widths[FW_OUTLOOK_CAMPAIGNS / 2]);
+    design->evaluations = u.evaluations / ((double)FW_OUTLOOK_CAMPAIGNS * (double)x->n_virtual);
     return FW_OK;
 }
 

@@ -15,7 +15,7 @@
 #include "study/answer.h"
 #include "study/emulator.h"
 
-enum { FW_OUTLOOK_DESIGNS = 5, FW_OUTLOOK_PILOT = 64, FW_OUTLOOK_FEWEST = 12 };
+enum { FW_OUTLOOK_DESIGNS = 5, FW_OUTLOOK_PILOT = 64, FW_OUTLOOK_FEWEST = 12, FW_OUTLOOK_CAMPAIGNS = 8 /* made up under each design */ };
 
 typedef struct fw_outlook_design {
     char        name[40];   /* "plain", "stratified", "stratified, allocated", "latin_hypercube", "sobol" */
