@@ -12,22 +12,6 @@ fw_life_slopes fw_life_slopes_make(const fw_life_spread *l, double mean, double 
     return (fw_life_slopes){l->windows + k / sd * (l->years - l->scatter) * mean, 0.5 * k / sd * l->scatter};
 }
 
-static fw_interval interval_about(double about, size_t n, const double *values, size_t n_same, double same, double confidence)
-{
-    fw_interval v = fw_mean_interval_about(about, n, values, n_same, same, confidence);
-    v.low = fmax(0, v.low);
-    return v;
-}
-
-fw_interval fw_life_interval(double percentile, size_t n, const double *values, size_t n_failed, double none, size_t least, double confidence)
-{
-    fw_interval out = {NAN, NAN, NAN};
-    if (n + n_failed < least || n == 0 || !(confidence > 0 && confidence < 1)) return out;
-    out = interval_about(percentile, n, values, n_failed, none, confidence);
-    if (n_failed) out.high = NAN;
-    return out;
-}
-
 /* windows, scatter and years of fw_life_spread are n_years times mean x, mean f^2 A and var x over rows, x = f n. */
 fw_interval fw_life_years_interval(const fw_years *y, const double *sums, double mean, double variance, double percentile, double confidence)
 {
@@ -45,7 +29,9 @@ fw_interval fw_life_years_interval(const fw_years *y, const double *sums, double
         double by_sd = sd > 0 ? 0.5 * k / sd * ((f * f * sums[i] - scatter) * variance + (d * d - l.years / each) * mean * mean) : 0;
         values[i] = percentile + each * (d * mean + by_sd);
     }
-    return interval_about(percentile, y->n, values, 0, 0, confidence);
+    out = fw_mean_interval_about(percentile, y->n, values, 0, 0, confidence);
+    out.low = fmax(0, out.low);
+    return out;
 }
 
 fw_interval fw_life_both(double value, fw_interval a, fw_interval b)

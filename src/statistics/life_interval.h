@@ -16,21 +16,13 @@
 #include "statistics/lives.h"
 #include "statistics/order.h"
 
-enum {
-    FW_LIFE_RECORDS = 60, /* no interval below */
-    FW_LIFE_UNITS = 16,   /* means of randomisations of a design instead of records; none below */
-    FW_LIFE_YEARS = 8     /* rows of a table; none below */
-};
+enum { FW_LIFE_YEARS = 8 /* rows of a table; no interval below. Records and randomisations: as of a mean */ };
 
 /* How the percentile moves with E D and E D^2 of a window. */
 typedef struct fw_life_slopes {
     double first, second;
 } fw_life_slopes;
 fw_life_slopes fw_life_slopes_make(const fw_life_spread *l, double mean, double variance, double percentile);
-
-/* values (n): pseudo-values. n_failed realisations have the value none, what a record without wear would have, for the lower end; with any of
- * them there is no upper end. least: one of the two above. Ends are >= 0. */
-fw_interval fw_life_interval(double percentile, size_t n, const double *values, size_t n_failed, double none, size_t least, double confidence);
 
 /* For not knowing the law of years better than a table tells. sums (years->n): of each row, fw_scores_sum of its windows. */
 fw_interval fw_life_years_interval(const fw_years *y, const double *sums, double mean, double variance, double percentile, double confidence);

@@ -53,11 +53,16 @@ fw_interval fw_mean_interval_about(double about, size_t n, const double *values,
     return (fw_interval){about - m.sd * hall_inverse(t, m.skewness, m.n), about - m.sd * hall_inverse(-t, m.skewness, m.n), confidence};
 }
 
-fw_interval fw_mean_interval(size_t n, const double *values, size_t n_failed, size_t least, double confidence)
+fw_interval fw_mean_interval_of(double about, size_t n, const double *values, size_t n_failed, double none, size_t least, double confidence)
 {
     fw_interval out = {NAN, NAN, NAN};
     if (n + n_failed < least || n == 0 || !(confidence > 0 && confidence < 1)) return out;
-    out = fw_mean_interval_about(fw_mean(n, values), n, values, n_failed, 0, confidence);
+    out = fw_mean_interval_about(about, n, values, n_failed, none, confidence);
     if (n_failed) out.high = NAN;
     return out;
+}
+
+fw_interval fw_mean_interval(size_t n, const double *values, size_t n_failed, size_t least, double confidence)
+{
+    return fw_mean_interval_of(fw_mean(n, values), n, values, n_failed, 0, least, confidence);
 }

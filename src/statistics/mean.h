@@ -24,7 +24,10 @@ double fw_mean(size_t n, const double *values); /* NAN when n = 0 */
  * +infinity, and so is their mean: with any of them there is no upper end. coverage = confidence. least: one of the two above. */
 fw_interval fw_mean_interval(size_t n, const double *values, size_t n_failed, size_t least, double confidence);
 
-/* The same about a number whose errors are those of the mean of n values (pseudo-values) and n_same more that are same; both ends, for any n above 1. */
+/* The same about a number whose errors are those of the mean of the values (pseudo-values); a failed realisation has the value none at the lower end. */
+fw_interval fw_mean_interval_of(double about, size_t n, const double *values, size_t n_failed, double none, size_t least, double confidence);
+
+/* The interval itself, of n values and n_same more that are same: both ends, for any n above 1. */
 fw_interval fw_mean_interval_about(double about, size_t n, const double *values, size_t n_same, double same, double confidence);
 
 #endif

@@ -114,9 +114,9 @@ const char *fw_window_method(const fw_window *w);                               
 fw_interval fw_window_mean_interval(const fw_window *w, double confidence);      /* [mm] */
 /* Relative variance of the variance (statistics/spread.h) that the mean's interval is made from; that of a percentile is in its level. 0 for order statistics. */
 double      fw_window_mean_vov(const fw_window *w);
-/* values (2 x n; of the first n each realisation's own number) become values whose plain mean is about and whose scatter is that of what the control
- * variates leave: each realisation's, or each randomisation's, share in a weighted mean. Returns their number. */
-size_t      fw_window_pseudo_values(const fw_window *w, double about, double *values);
+/* Of a number that is, to first order, a weighted mean over realisations, and is about; at the lower end a failed realisation has the value none. values
+ * (2 x n): of the first n each realisation's own; changed. */
+fw_interval fw_window_interval_of(const fw_window *w, double about, double none, double *values, double confidence);
 /* The central value if the failed ones were all 0 (low) or all infinite (high; INFINITY when it is one of them). */
 void        fw_window_failure_ends(const fw_window *w, double p, double *low, double *high);
 

@@ -85,10 +85,7 @@ static fw_interval by_records(const fw_window *w, const fw_life_slopes *slopes, 
     const fw_depth *d = w->depth;
     double          none = fmax(0, depth - slopes->first * w->moment[1] - slopes->second * w->moment[2]);
     for (size_t i = 0; i < d->n; i++) values[i] = slopes->first * w->means[i] + slopes->second * w->squares[i];
-    size_t      n = fw_window_pseudo_values(w, depth, values);
-    fw_interval v = fw_life_interval(depth, n, values, d->unit ? 0 : d->n_failed, none, d->unit ? FW_LIFE_UNITS : FW_LIFE_RECORDS, confidence);
-    if (d->unit && d->n_failed) v.low *= d->weight / (d->weight + d->failed_weight), v.high = NAN;
-    return v;
+    return fw_window_interval_of(w, depth, none, values, confidence);
 }
 
 /* For the asked percentiles of the life: of the records, and of the table of years where there is one. */

@@ -250,7 +250,9 @@ static bool is_mean_controlled(const fw_window *w)
     return w->depth->control.has_load && carriers(w, w->means, false) >= FEWEST_CARRIERS;
 }
 
-size_t fw_window_pseudo_values(const fw_window *w, double about, double *values)
+/* values (2 x n; of the first n each realisation's own number) become values whose plain mean is about and whose scatter is that of what the control
+ * variates leave: each realisation's, or each randomisation's, share in the weighted mean. Returns their number. */
+static size_t pseudo_values(const fw_window *w, double about, double *values)
 {
     const fw_depth *d = w->depth;
     const fw_units *u = &d->units;
@@ -262,17 +264,21 @@ size_t fw_window_pseudo_values(const fw_window *w, double about, double *values)
     return u->n_units;
 }
 
-fw_interval fw_window_mean_interval(const fw_window *w, double confidence)
+fw_interval fw_window_interval_of(const fw_window *w, double about, double none, double *values, double confidence)
 {
     const fw_depth *d = w->depth;
-    size_t          least = d->unit ? FW_MEAN_MIN_UNITS : FW_MEAN_MIN_N;
-    memcpy(d->scratch, w->means, d->n * sizeof *d->scratch);
-    size_t          n = fw_window_pseudo_values(w, w->moment[1], d->scratch);
-    double          failed = failed_share(d);
-    fw_interval     v = fw_mean_interval(n, d->scratch, d->unit ? 0 : d->n_failed, least, confidence);
-    if (d->unit && d->n_failed) v.low *= 1 - failed, v.high = NAN;
+    size_t          n = pseudo_values(w, about, values), n_failed = d->unit ? 0 : d->n_failed, least = d->unit ? FW_MEAN_MIN_UNITS : FW_MEAN_MIN_N;
+    fw_interval     v = fw_mean_interval_of(about, n, values, n_failed, none, least, confidence);
     if (v.low < 0) v.low = 0; /* no wear is negative */
+    if (d->unit && d->n_failed) v.low *= 1 - failed_share(d), v.high = NAN;
     return v;
+}
+
+fw_interval fw_window_mean_interval(const fw_window *w, double confidence)
+{
+    double *values = w->depth->scratch;
+    memcpy(values, w->means, w->depth->n * sizeof *values);
+    return fw_window_interval_of(w, w->moment[1], 0, values, confidence);
 }
 
 double fw_window_mean_vov(const fw_window *w)

@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "statistics/mean.h"
 #include "statistics/near.h"
 
 #include "statistics/lognormal_windows.h"
@@ -75,7 +76,7 @@ static double coverage(const law *q, const fw_life_spread *l, size_t n, double k
         double         percentile = percentile_of(l, sum, square, k);
         fw_life_slopes slopes = fw_life_slopes_make(l, sum, square - sum * sum, percentile);
         for (size_t i = 0; i < n; i++) values[i] = percentile + slopes.first * (first[i] - sum) + slopes.second * (second[i] - square);
-        fw_interval v = fw_life_interval(percentile, n, values, 0, 0, FW_LIFE_RECORDS, 0.95);
+        fw_interval v = fw_mean_interval_of(percentile, n, values, 0, 0, FW_MEAN_MIN_N, 0.95);
         hit += v.low <= truth && truth <= v.high;
     }
     return (double)hit / REPEATS;
@@ -88,7 +89,7 @@ static void records_cover_what_they_promise(void **state)
     fw_scores      s;
     fw_year        kinds[YEARS];
     fw_life_spread l = even_life(0.97, 0.4, &s, kinds), plain = even_life(0, 0, &s, kinds);
-    const size_t   ns[] = {FW_LIFE_RECORDS, 100, MOST};
+    const size_t   ns[] = {FW_MEAN_MIN_N, 100, MOST};
     for (size_t q = 0; q < 3; q++)
         for (size_t i = 0; i < 3; i++) {
             double with[] = {coverage(&LAWS[q], &plain, ns[i], 1.2816), coverage(&LAWS[q], &l, ns[i], 0), coverage(&LAWS[q], &l, ns[i], 2.5)};
@@ -159,14 +160,14 @@ static void failed_runs_and_small_samples(void **state)
     (void)state;
     double values[100];
     for (size_t i = 0; i < 100; i++) values[i] = 1000 * (1 + (double)(i % 7));
-    fw_interval clean = fw_life_interval(3950, 99, values, 0, 0, FW_LIFE_RECORDS, 0.95);
-    fw_interval failed = fw_life_interval(3950, 99, values, 1, 0, FW_LIFE_RECORDS, 0.95);
+    fw_interval clean = fw_mean_interval_of(3950, 99, values, 0, 0, FW_MEAN_MIN_N, 0.95);
+    fw_interval failed = fw_mean_interval_of(3950, 99, values, 1, 0, FW_MEAN_MIN_N, 0.95);
     assert_true(failed.low < clean.low && isnan(failed.high) && clean.high > 3950);
-    assert_true(isnan(fw_life_interval(3950, FW_LIFE_RECORDS - 1, values, 0, 0, FW_LIFE_RECORDS, 0.95).low));
-    assert_true(isfinite(fw_life_interval(3950, FW_LIFE_UNITS, values, 0, 0, FW_LIFE_UNITS, 0.95).low));
-    assert_true(isnan(fw_life_interval(0, 0, NULL, 100, 0, FW_LIFE_RECORDS, 0.95).low));
+    assert_true(isnan(fw_mean_interval_of(3950, FW_MEAN_MIN_N - 1, values, 0, 0, FW_MEAN_MIN_N, 0.95).low));
+    assert_true(isfinite(fw_mean_interval_of(3950, FW_MEAN_MIN_UNITS, values, 0, 0, FW_MEAN_MIN_UNITS, 0.95).low));
+    assert_true(isnan(fw_mean_interval_of(0, 0, NULL, 100, 0, FW_MEAN_MIN_N, 0.95).low));
     for (size_t i = 0; i < 100; i++) values[i] = 5000;
-    fw_interval equal = fw_life_interval(5000, 100, values, 0, 0, FW_LIFE_RECORDS, 0.95);
+    fw_interval equal = fw_mean_interval_of(5000, 100, values, 0, 0, FW_MEAN_MIN_N, 0.95);
     assert_near(equal.low, 5000, 1e-12);
     assert_near(equal.high, 5000, 1e-12);
     fw_interval both = fw_life_both(10, (fw_interval){7, 14, 0.95}, (fw_interval){6, 13, 0.95});
