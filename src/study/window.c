@@ -264,21 +264,30 @@ static size_t pseudo_values(const fw_window *w, double about, double *values)
     return u->n_units;
 }
 
-fw_interval fw_window_interval_of(const fw_window *w, double about, double none, double *values, double confidence)
+/* From the n units' pseudo-values. Of a design's randomisations none fails as a whole: failed realisations take their share off the lower end. */
+static fw_interval interval_of_units(const fw_window *w, double about, size_t n, const double *values, double none, double confidence)
 {
     const fw_depth *d = w->depth;
-    size_t          n = pseudo_values(w, about, values), n_failed = d->unit ? 0 : d->n_failed, least = d->unit ? FW_MEAN_MIN_UNITS : FW_MEAN_MIN_N;
+    size_t          n_failed = d->unit ? 0 : d->n_failed, least = d->unit ? FW_MEAN_MIN_UNITS : FW_MEAN_MIN_N;
     fw_interval     v = fw_mean_interval_of(about, n, values, n_failed, none, least, confidence);
     if (v.low < 0) v.low = 0; /* no wear is negative */
     if (d->unit && d->n_failed) v.low *= 1 - failed_share(d), v.high = NAN;
     return v;
 }
 
+fw_interval fw_window_interval_of(const fw_window *w, double about, double none, double *values, double confidence)
+{
+    size_t n = pseudo_values(w, about, values);
+    return interval_of_units(w, about, n, values, none, confidence);
+}
+
+/* About the pseudo-values' own mean, from which leave-one-out residuals have taken a little of the regression's bias. */
 fw_interval fw_window_mean_interval(const fw_window *w, double confidence)
 {
     double *values = w->depth->scratch;
     memcpy(values, w->means, w->depth->n * sizeof *values);
-    return fw_window_interval_of(w, w->moment[1], 0, values, confidence);
+    size_t n = pseudo_values(w, w->moment[1], values);
+    return interval_of_units(w, fw_mean(n, values), n, values, 0, confidence);
 }
 
 double fw_window_mean_vov(const fw_window *w)
