@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/memory.h"
-#include "cli/config.h"
+#include "cli/results_input.h"
 
 /* "results/a.h5" and "results/a" both mean results/a.journal and results/a.h5. */
 static fw_status files_name(fw_run_files *f, const char *out, fw_msg *m)
@@ -42,9 +42,6 @@ static fw_status files_check_results(const fw_run_files *f, bool is_fresh, fw_ms
     struct stat        s;
     fw_results        *r = NULL;
     fw_campaign        old;
-    const char        *text;
-    const char *const *sets   = NULL;
-    size_t             n_sets = 0;
     fw_msg             why    = {.text = ""};
     fw_status          status;
     bool               is_same;
@@ -62,9 +59,7 @@ static fw_status files_check_results(const fw_run_files *f, bool is_fresh, fw_ms
         fw_results_close(r);
         return FW_OK;
     }
-    text   = fw_results_campaign_text(r);
-    n_sets = fw_results_sets(r, &sets);
-    status = fw_config_campaign_text(&old, f->results_path, text, strlen(text), n_sets, sets, fw_results_seed(r), &why);
+    status  = fw_results_input_campaign(r, f->results_path, &old, &why);
     is_same = status == FW_OK && old.hash == f->campaign->hash;
     if (status == FW_OK) fw_campaign_free(&old);
     fw_results_close(r);
