@@ -170,19 +170,14 @@ void fw_accuracy_print_text(FILE *to, const fw_campaign *c, const fw_accuracy *a
 
 /* ---- JSON ------------------------------------------------------------------------------------------------------- */
 
-static void number(fw_json *j, const char *key, double x) { fw_json_key(j, key), fw_json_number(j, x); }
-static void count(fw_json *j, const char *key, size_t n) { fw_json_key(j, key), fw_json_integer(j, (int64_t)n); }
-static void string(fw_json *j, const char *key, const char *s) { fw_json_key(j, key), fw_json_string(j, s); }
-static void flag(fw_json *j, const char *key, bool is) { fw_json_key(j, key), fw_json_bool(j, is); }
-
 static void json_pairs(fw_json *j, const char *name, const fw_pairs *p)
 {
     fw_json_key(j, name);
     fw_json_begin_object(j);
-    count(j, "n", p->n);
-    number(j, "error", p->mean);
-    number(j, "standard_error", p->error);
-    number(j, "rms", p->rms);
+    fw_json_put_integer(j, "n", (int64_t)p->n);
+    fw_json_put_number(j, "error", p->mean);
+    fw_json_put_number(j, "standard_error", p->error);
+    fw_json_put_number(j, "rms", p->rms);
     fw_json_end(j);
 }
 
@@ -194,25 +189,25 @@ static void json_rows(fw_json *j, const char *name, const fw_accuracy *a, bool i
         const fw_accuracy_row *r = &a->rows[i];
         if ((r->group == FW_ACCURACY_STEP) != is_step) continue;
         fw_json_begin_object(j);
-        string(j, "group", fw_accuracy_group_name(r->group));
-        string(j, "method", r->method);
-        string(j, "setting", r->setting);
-        number(j, "level", r->level);
+        fw_json_put_string(j, "group", fw_accuracy_group_name(r->group));
+        fw_json_put_string(j, "method", r->method);
+        fw_json_put_string(j, "setting", r->setting);
+        fw_json_put_number(j, "level", r->level);
         json_pairs(j, "depth", &r->depth);
         json_pairs(j, "path", &r->path);
         json_pairs(j, "impulse", &r->impulse);
         if (is_step) {
             json_pairs(j, "coupled", &r->coupled);
-            number(j, "order", r->order);
-            number(j, "hit_error", r->hit_error);
-            number(j, "energy_truncation", r->truncation);
+            fw_json_put_number(j, "order", r->order);
+            fw_json_put_number(j, "hit_error", r->hit_error);
+            fw_json_put_number(j, "energy_truncation", r->truncation);
         }
-        number(j, "force_evaluations", r->evaluations);
-        number(j, "cpu_s", r->cpu_s);
-        flag(j, "is_reference", r->is_reference);
-        flag(j, "is_default", r->is_default);
-        flag(j, "is_chosen", r->is_chosen);
-        string(j, "words", r->words);
+        fw_json_put_number(j, "force_evaluations", r->evaluations);
+        fw_json_put_number(j, "cpu_s", r->cpu_s);
+        fw_json_put_bool(j, "is_reference", r->is_reference);
+        fw_json_put_bool(j, "is_default", r->is_default);
+        fw_json_put_bool(j, "is_chosen", r->is_chosen);
+        fw_json_put_string(j, "words", r->words);
         fw_json_end(j);
     }
     fw_json_end(j);
@@ -224,14 +219,14 @@ static void json_percentile(fw_json *j, const fw_accuracy *a)
     fw_json_begin_array(j);
     for (size_t i = 0; i < a->n_percentile; i++) {
         fw_json_begin_object(j);
-        count(j, "n", a->percentile[i].n);
-        number(j, "error", a->percentile[i].error);
-        number(j, "fit", a->percentile[i].fit);
+        fw_json_put_integer(j, "n", (int64_t)a->percentile[i].n);
+        fw_json_put_number(j, "error", a->percentile[i].error);
+        fw_json_put_number(j, "fit", a->percentile[i].fit);
         fw_json_end(j);
     }
     fw_json_end(j);
-    number(j, "percentile_error_one", a->error_one);
-    number(j, "percentile_slope", a->percentile_slope);
+    fw_json_put_number(j, "percentile_error_one", a->error_one);
+    fw_json_put_number(j, "percentile_slope", a->percentile_slope);
 }
 
 static void json_budget(fw_json *j, const fw_accuracy *a)
@@ -241,13 +236,13 @@ static void json_budget(fw_json *j, const fw_accuracy *a)
     for (size_t i = 0; i < a->n_budget; i++) {
         const fw_accuracy_budget_row *b = &a->budget[i];
         fw_json_begin_object(j);
-        number(j, "budget_cpu_s", b->budget_cpu_s);
-        number(j, "tolerance", b->tolerance);
-        number(j, "n", b->n);
-        number(j, "step_error", b->step_error);
-        number(j, "sampling_error", b->sampling_error);
-        number(j, "total_error", b->total_error);
-        flag(j, "is_chosen", b->is_chosen);
+        fw_json_put_number(j, "budget_cpu_s", b->budget_cpu_s);
+        fw_json_put_number(j, "tolerance", b->tolerance);
+        fw_json_put_number(j, "n", b->n);
+        fw_json_put_number(j, "step_error", b->step_error);
+        fw_json_put_number(j, "sampling_error", b->sampling_error);
+        fw_json_put_number(j, "total_error", b->total_error);
+        fw_json_put_bool(j, "is_chosen", b->is_chosen);
         fw_json_end(j);
     }
     fw_json_end(j);
@@ -259,9 +254,9 @@ static void json_choice(fw_json *j, const fw_accuracy *a)
     fw_choice_sets_make(&sets, &a->choice);
     fw_json_key(j, "choice");
     fw_json_begin_object(j);
-    number(j, "error", a->choice.error);
-    flag(j, "is_within", a->choice.is_within);
-    string(j, "why", a->choice.why);
+    fw_json_put_number(j, "error", a->choice.error);
+    fw_json_put_bool(j, "is_within", a->choice.is_within);
+    fw_json_put_string(j, "why", a->choice.why);
     fw_json_key(j, "sets");
     fw_json_begin_array(j);
     for (size_t i = 0; i < sets.n; i++) fw_json_string(j, sets.text[i]);
@@ -273,24 +268,24 @@ void fw_accuracy_print_json(FILE *to, const fw_campaign *c, const fw_accuracy *a
 {
     fw_json j = fw_json_onto(to);
     fw_json_begin_object(&j);
-    string(&j, "campaign", c->name);
-    number(&j, "accuracy", c->model.accuracy);
-    count(&j, "n_windows", a->sizes.n_windows);
-    count(&j, "n_coupled", a->n_coupled);
-    number(&j, "way_m", a->sizes.way);
-    number(&j, "warm_up_way_m", a->sizes.warm_up_way);
-    number(&j, "domain_way_m", a->sizes.domain_way);
-    number(&j, "mean_speed_m_s", a->mean_speed);
+    fw_json_put_string(&j, "campaign", c->name);
+    fw_json_put_number(&j, "accuracy", c->model.accuracy);
+    fw_json_put_integer(&j, "n_windows", (int64_t)a->sizes.n_windows);
+    fw_json_put_integer(&j, "n_coupled", (int64_t)a->n_coupled);
+    fw_json_put_number(&j, "way_m", a->sizes.way);
+    fw_json_put_number(&j, "warm_up_way_m", a->sizes.warm_up_way);
+    fw_json_put_number(&j, "domain_way_m", a->sizes.domain_way);
+    fw_json_put_number(&j, "mean_speed_m_s", a->mean_speed);
     fw_json_key(&j, "reference");
     fw_json_begin_object(&j);
-    number(&j, "hit_error", a->reference_hit_error);
-    string(&j, "hit", a->reference_hit);
+    fw_json_put_number(&j, "hit_error", a->reference_hit_error);
+    fw_json_put_string(&j, "hit", a->reference_hit);
     fw_json_end(&j);
     json_rows(&j, "work_precision", a, true);
     json_rows(&j, "domain", a, false);
     json_percentile(&j, a);
     json_budget(&j, a);
     json_choice(&j, a);
-    number(&j, "cpu_s", a->cpu_s);
+    fw_json_put_number(&j, "cpu_s", a->cpu_s);
     fw_json_end(&j);
 }

@@ -154,40 +154,40 @@ static void print_json(const fw_campaign *c, const fw_scene_facts *facts, const 
     const fw_effect *const *e;
     size_t                  n = fw_effects_list(&e);
     fw_json_begin_object(&j);
-    fw_json_key(&j, "campaign"), fw_json_string(&j, c->name);
+    fw_json_put_string(&j, "campaign", c->name);
     fw_json_key(&j, "effects");
     fw_json_begin_array(&j);
     for (size_t i = 0; i < n; i++) {
         char reason[FW_REASON_SIZE];
         bool is_on = effect_state(c, facts, choice, e[i], reason);
         fw_json_begin_object(&j);
-        fw_json_key(&j, "name"), fw_json_string(&j, e[i]->name);
-        fw_json_key(&j, "on"), fw_json_bool(&j, is_on);
-        fw_json_key(&j, "reason"), fw_json_string(&j, reason);
+        fw_json_put_string(&j, "name", e[i]->name);
+        fw_json_put_bool(&j, "on", is_on);
+        fw_json_put_string(&j, "reason", reason);
         fw_json_end(&j);
     }
     fw_json_end(&j);
-    fw_json_key(&j, "effects_choice"), fw_json_string(&j, choice->effects_line);
+    fw_json_put_string(&j, "effects_choice", choice->effects_line);
     fw_json_key(&j, "effects_ledger"), fw_effects_json_rows(&j, &choice->effects);
-    fw_json_key(&j, "effects_measured"), fw_json_string(&j, choice->effects.n_rows ? choice->effects.origin : "nowhere");
+    fw_json_put_string(&j, "effects_measured", choice->effects.n_rows ? choice->effects.origin : "nowhere");
     fw_accuracy_line lines[16];
     size_t           n_lines = fw_accuracy_lines(&c->model, speed, lines, 16);
-    fw_json_key(&j, "numerics"), fw_json_string(&j, choice->line);
+    fw_json_put_string(&j, "numerics", choice->line);
     fw_json_key(&j, "accuracy");
     fw_json_begin_array(&j);
     for (size_t i = 0; i < n_lines; i++) {
         fw_json_begin_object(&j);
-        fw_json_key(&j, "name"), fw_json_string(&j, lines[i].name);
-        fw_json_key(&j, "value"), fw_json_number(&j, lines[i].value);
-        fw_json_key(&j, "unit"), fw_json_string(&j, lines[i].unit);
-        fw_json_key(&j, "why"), fw_json_string(&j, lines[i].why);
+        fw_json_put_string(&j, "name", lines[i].name);
+        fw_json_put_number(&j, "value", lines[i].value);
+        fw_json_put_string(&j, "unit", lines[i].unit);
+        fw_json_put_string(&j, "why", lines[i].why);
         fw_json_end(&j);
     }
     fw_json_end(&j);
     fw_json_key(&j, "expected");
     fw_json_begin_object(&j);
-    fw_json_key(&j, "force_evaluations_mean"), fw_json_number(&j, of->mean);
-    fw_json_key(&j, "force_evaluations_most"), fw_json_number(&j, of->most);
+    fw_json_put_number(&j, "force_evaluations_mean", of->mean);
+    fw_json_put_number(&j, "force_evaluations_most", of->most);
     fw_json_end(&j);
     fw_plan_strip_json(&j, c, strip);
     fw_plan_design_json(&j, c, x, f);

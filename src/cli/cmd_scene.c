@@ -122,11 +122,9 @@ static void print_json(const fw_scene *s, const fw_scene_result *r)
     for (size_t i = 0; i < n; i++)
         if (fw_effects_have(&s->model, e[i]->bit)) fw_json_string(&j, e[i]->name);
     fw_json_end(&j);
-    fw_json_key(&j, "status");
-    fw_json_string(&j, c->status == FW_OK ? "ok" : fw_status_name(c->status));
+    fw_json_put_string(&j, "status", c->status == FW_OK ? "ok" : fw_status_name(c->status));
     if (c->status != FW_OK) {
-        fw_json_key(&j, "cause");
-        fw_json_string(&j, c->cause);
+        fw_json_put_string(&j, "cause", c->cause);
     }
     fw_json_end(&j);
 }

@@ -56,37 +56,24 @@ static void print_json(const fw_journal_facts *f)
     snprintf(hash, sizeof hash, "%016" PRIx64, f->hash);
     fw_json j = fw_json_onto(stdout);
     fw_json_begin_object(&j);
-    fw_json_key(&j, "campaign");
-    fw_json_string(&j, f->name);
-    fw_json_key(&j, "state");
-    fw_json_string(&j, state_of(f));
-    fw_json_key(&j, "running");
-    fw_json_bool(&j, f->is_running);
-    fw_json_key(&j, "done");
-    fw_json_integer(&j, (int64_t)f->n_done);
-    fw_json_key(&j, "failed");
-    fw_json_integer(&j, (int64_t)f->n_failed);
-    fw_json_key(&j, "prefix");
-    fw_json_integer(&j, (int64_t)f->prefix);
-    fw_json_key(&j, "first_id");
-    fw_json_integer(&j, (int64_t)f->first);
+    fw_json_put_string(&j, "campaign", f->name);
+    fw_json_put_string(&j, "state", state_of(f));
+    fw_json_put_bool(&j, "running", f->is_running);
+    fw_json_put_integer(&j, "done", (int64_t)f->n_done);
+    fw_json_put_integer(&j, "failed", (int64_t)f->n_failed);
+    fw_json_put_integer(&j, "prefix", (int64_t)f->prefix);
+    fw_json_put_integer(&j, "first_id", (int64_t)f->first);
     fw_json_key(&j, "max_realisations");
     if (f->max_realisations > 0)
         fw_json_integer(&j, (int64_t)f->max_realisations);
     else
         fw_json_null(&j);
-    fw_json_key(&j, "seed");
-    fw_json_integer(&j, (int64_t)f->seed);
-    fw_json_key(&j, "settings_hash");
-    fw_json_string(&j, hash);
-    fw_json_key(&j, "n_arcs");
-    fw_json_integer(&j, (int64_t)f->n_arcs);
-    fw_json_key(&j, "n_laws");
-    fw_json_integer(&j, (int64_t)f->n_laws);
-    fw_json_key(&j, "torn_bytes");
-    fw_json_integer(&j, (int64_t)f->torn_bytes);
-    fw_json_key(&j, "host_cpu_s");
-    fw_json_number(&j, f->host_cpu_s);
+    fw_json_put_integer(&j, "seed", (int64_t)f->seed);
+    fw_json_put_string(&j, "settings_hash", hash);
+    fw_json_put_integer(&j, "n_arcs", (int64_t)f->n_arcs);
+    fw_json_put_integer(&j, "n_laws", (int64_t)f->n_laws);
+    fw_json_put_integer(&j, "torn_bytes", (int64_t)f->torn_bytes);
+    fw_json_put_number(&j, "host_cpu_s", f->host_cpu_s);
     fw_json_end(&j);
 }
 

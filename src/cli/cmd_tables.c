@@ -51,15 +51,15 @@ static void print_effects_json(const fw_model *m, const fw_scene_facts *f)
     for (size_t i = 0; i < n; i++) {
         char reason[FW_REASON_SIZE];
         fw_json_begin_object(&j);
-        fw_json_key(&j, "name"), fw_json_string(&j, e[i]->name);
-        fw_json_key(&j, "on"), fw_json_bool(&j, e[i]->is_needed(m, f, reason));
-        fw_json_key(&j, "reason"), fw_json_string(&j, e[i]->needed);
-        fw_json_key(&j, "does"), fw_json_string(&j, e[i]->does);
-        fw_json_key(&j, "equation"), fw_json_string(&j, e[i]->equation);
-        fw_json_key(&j, "source"), fw_json_string(&j, e[i]->source);
-        fw_json_key(&j, "range"), fw_json_string(&j, e[i]->range);
-        fw_json_key(&j, "limit"), fw_json_string(&j, e[i]->limit);
-        fw_json_key(&j, "off"), fw_json_string(&j, e[i]->off);
+        fw_json_put_string(&j, "name", e[i]->name);
+        fw_json_put_bool(&j, "on", e[i]->is_needed(m, f, reason));
+        fw_json_put_string(&j, "reason", e[i]->needed);
+        fw_json_put_string(&j, "does", e[i]->does);
+        fw_json_put_string(&j, "equation", e[i]->equation);
+        fw_json_put_string(&j, "source", e[i]->source);
+        fw_json_put_string(&j, "range", e[i]->range);
+        fw_json_put_string(&j, "limit", e[i]->limit);
+        fw_json_put_string(&j, "off", e[i]->off);
         fw_json_end(&j);
     }
     fw_json_end(&j);
@@ -111,14 +111,14 @@ int fw_cmd_laws(int argc, char **argv)
         fw_json_begin_array(&j);
         for (size_t i = 0; i < n; i++) {
             fw_json_begin_object(&j);
-            fw_json_key(&j, "name"), fw_json_string(&j, all[i].law.name);
-            fw_json_key(&j, "coefficient"), fw_json_number(&j, all[i].law.coefficient);
-            fw_json_key(&j, "exponent"), fw_json_number(&j, all[i].law.exponent);
-            fw_json_key(&j, "uses_temperature"), fw_json_bool(&j, all[i].law.uses_temperature);
-            fw_json_key(&j, "equation"), fw_json_string(&j, all[i].equation);
-            fw_json_key(&j, "source"), fw_json_string(&j, all[i].source);
-            fw_json_key(&j, "range"), fw_json_string(&j, all[i].range);
-            fw_json_key(&j, "remark"), fw_json_string(&j, all[i].remark);
+            fw_json_put_string(&j, "name", all[i].law.name);
+            fw_json_put_number(&j, "coefficient", all[i].law.coefficient);
+            fw_json_put_number(&j, "exponent", all[i].law.exponent);
+            fw_json_put_bool(&j, "uses_temperature", all[i].law.uses_temperature);
+            fw_json_put_string(&j, "equation", all[i].equation);
+            fw_json_put_string(&j, "source", all[i].source);
+            fw_json_put_string(&j, "range", all[i].range);
+            fw_json_put_string(&j, "remark", all[i].remark);
             fw_json_end(&j);
         }
         fw_json_end(&j);

@@ -94,17 +94,13 @@ void fw_effects_print_text(FILE *to, const fw_campaign *c, const fw_effects_ledg
 
 /* ---- JSON ------------------------------------------------------------------------------------------------------- */
 
-static void number(fw_json *j, const char *key, double x) { fw_json_key(j, key), fw_json_number(j, x); }
-static void count(fw_json *j, const char *key, size_t n) { fw_json_key(j, key), fw_json_integer(j, (int64_t)n); }
-static void string(fw_json *j, const char *key, const char *s) { fw_json_key(j, key), fw_json_string(j, s); }
-
 static void json_change(fw_json *j, const char *key, const fw_change *c)
 {
     fw_json_key(j, key);
     fw_json_begin_object(j);
-    number(j, "change", c->change);
-    number(j, "low", c->low);
-    number(j, "high", c->high);
+    fw_json_put_number(j, "change", c->change);
+    fw_json_put_number(j, "low", c->low);
+    fw_json_put_number(j, "high", c->high);
     fw_json_end(j);
 }
 
@@ -118,20 +114,20 @@ void fw_effects_json_rows(fw_json *j, const fw_effects_ledger *l)
     for (size_t i = 0; i < l->n_rows; i++) {
         const fw_effects_row *r = &l->rows[i];
         fw_json_begin_object(j);
-        string(j, "name", r->name);
-        string(j, "change", r->change);
-        string(j, "why", r->why);
-        string(j, "not_measured", r->note[0] ? r->note : NULL);
-        fw_json_key(j, "is_effect"), fw_json_bool(j, r->is_effect);
-        fw_json_key(j, "was_on"), fw_json_bool(j, r->was_on);
+        fw_json_put_string(j, "name", r->name);
+        fw_json_put_string(j, "change", r->change);
+        fw_json_put_string(j, "why", r->why);
+        fw_json_put_string(j, "not_measured", r->note[0] ? r->note : NULL);
+        fw_json_put_bool(j, "is_effect", r->is_effect);
+        fw_json_put_bool(j, "was_on", r->was_on);
         json_change(j, "mean", &r->mean);
         json_change(j, "percentile", &r->percentile);
-        number(j, "evaluations_saved", r->evaluations_saved);
-        number(j, "cpu_saved", r->cpu_saved);
-        number(j, "evaluations_share", r->evaluations_share);
-        number(j, "cpu_share", r->cpu_share);
-        count(j, "n_pairs", r->n_pairs);
-        count(j, "n_failed", r->n_failed);
+        fw_json_put_number(j, "evaluations_saved", r->evaluations_saved);
+        fw_json_put_number(j, "cpu_saved", r->cpu_saved);
+        fw_json_put_number(j, "evaluations_share", r->evaluations_share);
+        fw_json_put_number(j, "cpu_share", r->cpu_share);
+        fw_json_put_integer(j, "n_pairs", (int64_t)r->n_pairs);
+        fw_json_put_integer(j, "n_failed", (int64_t)r->n_failed);
         fw_json_end(j);
     }
     fw_json_end(j);
@@ -141,27 +137,27 @@ void fw_effects_print_json(FILE *to, const fw_campaign *c, const fw_effects_ledg
 {
     fw_json j = fw_json_onto(to);
     fw_json_begin_object(&j);
-    string(&j, "campaign", c->name);
-    count(&j, "n_windows", l->n_windows);
-    number(&j, "way_m", l->way);
-    number(&j, "window_s", l->seconds);
-    count(&j, "point", l->point);
-    number(&j, "bearing_deg", c->points.bearing[l->point - 1]);
-    number(&j, "percentile", l->percentile);
-    number(&j, "confidence", l->confidence);
-    number(&j, "mean_mm", l->mean_mm);
-    number(&j, "percentile_mm", l->percentile_mm);
+    fw_json_put_string(&j, "campaign", c->name);
+    fw_json_put_integer(&j, "n_windows", (int64_t)l->n_windows);
+    fw_json_put_number(&j, "way_m", l->way);
+    fw_json_put_number(&j, "window_s", l->seconds);
+    fw_json_put_integer(&j, "point", (int64_t)l->point);
+    fw_json_put_number(&j, "bearing_deg", c->points.bearing[l->point - 1]);
+    fw_json_put_number(&j, "percentile", l->percentile);
+    fw_json_put_number(&j, "confidence", l->confidence);
+    fw_json_put_number(&j, "mean_mm", l->mean_mm);
+    fw_json_put_number(&j, "percentile_mm", l->percentile_mm);
     fw_json_key(&j, "effects_ledger");
     fw_effects_json_rows(&j, l);
     fw_json_key(&j, "cost");
     fw_json_begin_object(&j);
-    number(&j, "force_evaluations", l->evaluations);
-    number(&j, "evaluations_bare", l->evaluations_bare);
-    number(&j, "cpu_s", l->cpu_s);
-    number(&j, "cpu_s_first", l->cpu_s_first);
-    number(&j, "cpu_bare", l->cpu_bare);
-    number(&j, "cpu_noise", l->cpu_noise);
-    number(&j, "cpu_s_study", l->cpu_s_study);
+    fw_json_put_number(&j, "force_evaluations", l->evaluations);
+    fw_json_put_number(&j, "evaluations_bare", l->evaluations_bare);
+    fw_json_put_number(&j, "cpu_s", l->cpu_s);
+    fw_json_put_number(&j, "cpu_s_first", l->cpu_s_first);
+    fw_json_put_number(&j, "cpu_bare", l->cpu_bare);
+    fw_json_put_number(&j, "cpu_noise", l->cpu_noise);
+    fw_json_put_number(&j, "cpu_s_study", l->cpu_s_study);
     fw_json_end(&j);
     fw_json_end(&j);
 }

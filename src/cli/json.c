@@ -165,3 +165,8 @@ void fw_json_null(fw_json *j)
     fputs("null", j->to);
     after_value(j);
 }
+
+void fw_json_put_number(fw_json *j, const char *key, double x) { fw_json_key(j, key), fw_json_number(j, x); }
+void fw_json_put_integer(fw_json *j, const char *key, int64_t x) { fw_json_key(j, key), fw_json_integer(j, x); }
+void fw_json_put_string(fw_json *j, const char *key, const char *s) { fw_json_key(j, key), fw_json_string(j, s); }
+void fw_json_put_bool(fw_json *j, const char *key, bool x) { fw_json_key(j, key), fw_json_bool(j, x); }

@@ -43,4 +43,10 @@ void fw_json_string(fw_json *j, const char *s); /* NULL becomes null */
 void fw_json_bool(fw_json *j, bool x);
 void fw_json_null(fw_json *j);
 
+/* A key and its value. */
+void fw_json_put_number(fw_json *j, const char *key, double x);
+void fw_json_put_integer(fw_json *j, const char *key, int64_t x);
+void fw_json_put_string(fw_json *j, const char *key, const char *s);
+void fw_json_put_bool(fw_json *j, const char *key, bool x);
+
 #endif

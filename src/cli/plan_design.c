@@ -148,33 +148,33 @@ void fw_plan_design_json(fw_json *j, const fw_campaign *c, const fw_outlook *x, 
 {
     fw_json_key(j, "pilot");
     fw_json_begin_object(j);
-    fw_json_key(j, "n"), fw_json_integer(j, (int64_t)x->n_pilot);
-    fw_json_key(j, "failed"), fw_json_integer(j, (int64_t)x->n_failed);
-    fw_json_key(j, "cpu_s_mean"), fw_json_number(j, x->n_pilot ? x->cpu_mean : NAN);
-    fw_json_key(j, "cpu_s_max"), fw_json_number(j, x->n_pilot ? x->cpu_most : NAN);
-    fw_json_key(j, "sd_of_log_load"), fw_json_number(j, x->is_known ? x->emulator.scatter : NAN);
-    fw_json_key(j, "held_out_error"), fw_json_number(j, x->is_known ? x->emulator.held_out : NAN);
+    fw_json_put_integer(j, "n", (int64_t)x->n_pilot);
+    fw_json_put_integer(j, "failed", (int64_t)x->n_failed);
+    fw_json_put_number(j, "cpu_s_mean", x->n_pilot ? x->cpu_mean : NAN);
+    fw_json_put_number(j, "cpu_s_max", x->n_pilot ? x->cpu_most : NAN);
+    fw_json_put_number(j, "sd_of_log_load", x->is_known ? x->emulator.scatter : NAN);
+    fw_json_put_number(j, "held_out_error", x->is_known ? x->emulator.held_out : NAN);
     fw_json_end(j);
     fw_json_key(j, "designs");
     fw_json_begin_array(j);
     for (size_t i = 0; i < x->n_designs; i++) {
         const fw_outlook_design *d = &x->design[i];
         fw_json_begin_object(j);
-        fw_json_key(j, "name"), fw_json_string(j, d->name);
-        fw_json_key(j, "half_width"), fw_json_number(j, d->half_width);
-        fw_json_key(j, "force_evaluations"), fw_json_number(j, d->evaluations);
-        fw_json_key(j, "pays"), fw_json_number(j, d->pays);
-        fw_json_key(j, "chosen"), fw_json_bool(j, i == x->chosen);
+        fw_json_put_string(j, "name", d->name);
+        fw_json_put_number(j, "half_width", d->half_width);
+        fw_json_put_number(j, "force_evaluations", d->evaluations);
+        fw_json_put_number(j, "pays", d->pays);
+        fw_json_put_bool(j, "chosen", i == x->chosen);
         fw_json_end(j);
     }
     fw_json_end(j);
-    fw_json_key(j, "design_reason"), fw_json_string(j, x->is_known ? x->reason : "");
+    fw_json_put_string(j, "design_reason", x->is_known ? x->reason : "");
     fw_json_key(j, "predicted");
     fw_json_begin_object(j);
-    fw_json_key(j, "realisations"), fw_json_number(j, f->n);
-    fw_json_key(j, "realisations_wanted"), fw_json_number(j, f->n_wanted);
-    fw_json_key(j, "half_width"), fw_json_number(j, f->half_width);
-    fw_json_key(j, "cpu_s"), fw_json_number(j, f->cpu_s);
-    fw_json_key(j, "max_realisations"), fw_json_integer(j, (int64_t)c->precision.max_realisations);
+    fw_json_put_number(j, "realisations", f->n);
+    fw_json_put_number(j, "realisations_wanted", f->n_wanted);
+    fw_json_put_number(j, "half_width", f->half_width);
+    fw_json_put_number(j, "cpu_s", f->cpu_s);
+    fw_json_put_integer(j, "max_realisations", (int64_t)c->precision.max_realisations);
     fw_json_end(j);
 }

@@ -51,32 +51,29 @@ static void print_text(const fw_campaign *c, const fw_levels *l)
            FW_LEVELS_WANTED);
 }
 
-static void number(fw_json *j, const char *key, double x) { fw_json_key(j, key), fw_json_number(j, x); }
-static void string(fw_json *j, const char *key, const char *s) { fw_json_key(j, key), fw_json_string(j, s); }
-
 static void json_row(fw_json *j, const fw_levels_row *r)
 {
     const fw_coupled *p = &r->pairs;
     bool              is_measured = !r->note[0];
     fw_json_begin_object(j);
-    string(j, "name", r->name);
-    string(j, "what", r->what);
-    string(j, "not_measured", is_measured ? NULL : r->note);
-    number(j, "cost_ratio", is_measured ? p->cost_ratio : NAN);
-    number(j, "evaluations_ratio", is_measured ? r->evaluations_ratio : NAN);
-    number(j, "correlation", is_measured ? p->correlation : NAN);
-    number(j, "correlation_before_control", is_measured ? r->correlation_before : NAN);
-    number(j, "correlation_of_means", is_measured ? r->correlation_mean : NAN);
-    number(j, "gain", is_measured ? p->multifidelity.gain : NAN);
-    number(j, "gain_low", is_measured ? p->multifidelity.low : NAN);
-    number(j, "gain_high", is_measured ? p->multifidelity.high : NAN);
-    number(j, "gain_multilevel", is_measured ? p->multilevel.gain : NAN);
-    number(j, "gain_multilevel_low", is_measured ? p->multilevel.low : NAN);
-    number(j, "gain_multilevel_high", is_measured ? p->multilevel.high : NAN);
-    number(j, "kurtosis", is_measured ? p->kurtosis : NAN);
-    number(j, "consistency", is_measured ? p->consistency : NAN);
-    fw_json_key(j, "is_promising"), fw_json_bool(j, r->is_promising);
-    string(j, "verdict", is_measured ? r->verdict : NULL);
+    fw_json_put_string(j, "name", r->name);
+    fw_json_put_string(j, "what", r->what);
+    fw_json_put_string(j, "not_measured", is_measured ? NULL : r->note);
+    fw_json_put_number(j, "cost_ratio", is_measured ? p->cost_ratio : NAN);
+    fw_json_put_number(j, "evaluations_ratio", is_measured ? r->evaluations_ratio : NAN);
+    fw_json_put_number(j, "correlation", is_measured ? p->correlation : NAN);
+    fw_json_put_number(j, "correlation_before_control", is_measured ? r->correlation_before : NAN);
+    fw_json_put_number(j, "correlation_of_means", is_measured ? r->correlation_mean : NAN);
+    fw_json_put_number(j, "gain", is_measured ? p->multifidelity.gain : NAN);
+    fw_json_put_number(j, "gain_low", is_measured ? p->multifidelity.low : NAN);
+    fw_json_put_number(j, "gain_high", is_measured ? p->multifidelity.high : NAN);
+    fw_json_put_number(j, "gain_multilevel", is_measured ? p->multilevel.gain : NAN);
+    fw_json_put_number(j, "gain_multilevel_low", is_measured ? p->multilevel.low : NAN);
+    fw_json_put_number(j, "gain_multilevel_high", is_measured ? p->multilevel.high : NAN);
+    fw_json_put_number(j, "kurtosis", is_measured ? p->kurtosis : NAN);
+    fw_json_put_number(j, "consistency", is_measured ? p->consistency : NAN);
+    fw_json_put_bool(j, "is_promising", r->is_promising);
+    fw_json_put_string(j, "verdict", is_measured ? r->verdict : NULL);
     fw_json_end(j);
 }
 
@@ -84,17 +81,17 @@ static void print_json(const fw_campaign *c, const fw_levels *l)
 {
     fw_json j = fw_json_onto(stdout);
     fw_json_begin_object(&j);
-    string(&j, "campaign", c->name);
-    fw_json_key(&j, "n_windows"), fw_json_integer(&j, (int64_t)l->n_windows);
-    fw_json_key(&j, "n_failed"), fw_json_integer(&j, (int64_t)l->n_failed);
-    fw_json_key(&j, "n_control_variates"), fw_json_integer(&j, (int64_t)l->n_functions);
-    fw_json_key(&j, "point"), fw_json_integer(&j, (int64_t)l->point);
-    number(&j, "percentile", l->percentile);
-    number(&j, "depth_mm", l->depth_mm);
-    number(&j, "confidence", l->confidence);
-    number(&j, "wanted", FW_LEVELS_WANTED);
-    number(&j, "cpu_s_window", l->cpu_s_window);
-    number(&j, "cpu_s_study", l->cpu_s);
+    fw_json_put_string(&j, "campaign", c->name);
+    fw_json_put_integer(&j, "n_windows", (int64_t)l->n_windows);
+    fw_json_put_integer(&j, "n_failed", (int64_t)l->n_failed);
+    fw_json_put_integer(&j, "n_control_variates", (int64_t)l->n_functions);
+    fw_json_put_integer(&j, "point", (int64_t)l->point);
+    fw_json_put_number(&j, "percentile", l->percentile);
+    fw_json_put_number(&j, "depth_mm", l->depth_mm);
+    fw_json_put_number(&j, "confidence", l->confidence);
+    fw_json_put_number(&j, "wanted", FW_LEVELS_WANTED);
+    fw_json_put_number(&j, "cpu_s_window", l->cpu_s_window);
+    fw_json_put_number(&j, "cpu_s_study", l->cpu_s);
     fw_json_key(&j, "levels");
     fw_json_begin_array(&j);
     for (size_t i = 0; i < l->n_rows; i++) json_row(&j, &l->rows[i]);

@@ -83,17 +83,17 @@ void fw_plan_strip_json(fw_json *j, const fw_campaign *c, const fw_plan_strip *s
 {
     fw_json_key(j, "swept_strip");
     fw_json_begin_object(j);
-    fw_json_key(j, "why_not"), fw_json_string(j, s->why);
-    fw_json_key(j, "hits_per_hour"), fw_json_number(j, s->why[0] ? NAN : s->hits_per_hour);
-    fw_json_key(j, "usual_ratio"), fw_json_number(j, s->why[0] ? NAN : s->usual);
-    fw_json_key(j, "force_evaluations"), fw_json_number(j, s->why[0] ? NAN : s->evaluations);
+    fw_json_put_string(j, "why_not", s->why);
+    fw_json_put_number(j, "hits_per_hour", s->why[0] ? NAN : s->hits_per_hour);
+    fw_json_put_number(j, "usual_ratio", s->why[0] ? NAN : s->usual);
+    fw_json_put_number(j, "force_evaluations", s->why[0] ? NAN : s->evaluations);
     fw_json_key(j, "points");
     fw_json_begin_array(j);
     for (size_t i = 0; i < s->n_points && !s->why[0]; i++) {
         fw_json_begin_object(j);
-        fw_json_key(j, "point"), fw_json_integer(j, (int64_t)i + 1);
-        fw_json_key(j, "bearing_deg"), fw_json_number(j, c->points.bearing[i]);
-        fw_json_key(j, "mean_mm"), fw_json_number(j, s->mean_mm[i]);
+        fw_json_put_integer(j, "point", (int64_t)i + 1);
+        fw_json_put_number(j, "bearing_deg", c->points.bearing[i]);
+        fw_json_put_number(j, "mean_mm", s->mean_mm[i]);
         fw_json_end(j);
     }
     fw_json_end(j);

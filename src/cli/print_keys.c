@@ -65,26 +65,18 @@ static void print_key(fw_json *j, const fw_key *key)
 {
     char kind[64];
     fw_json_begin_object(j);
-    fw_json_key(j, "key");
-    fw_json_string(j, key->name);
-    fw_json_key(j, "kind");
-    fw_json_string(j, kind_of(key, kind));
-    fw_json_key(j, "unit");
-    fw_json_string(j, key->unit);
+    fw_json_put_string(j, "key", key->name);
+    fw_json_put_string(j, "kind", kind_of(key, kind));
+    fw_json_put_string(j, "unit", key->unit);
     fw_json_key(j, "default"); /* null: none */
     fw_json_string(j, key->fallback && *key->fallback ? key->fallback : NULL);
-    fw_json_key(j, "is_required");
-    fw_json_bool(j, !key->fallback);
+    fw_json_put_bool(j, "is_required", !key->fallback);
     if (key->kind == FW_KEY_NUMBER || key->kind == FW_KEY_AUTO || key->kind == FW_KEY_COUNT) {
-        fw_json_key(j, "least");
-        fw_json_number(j, key->least); /* null: none */
-        fw_json_key(j, "is_least_refused");
-        fw_json_bool(j, key->is_open);
-        fw_json_key(j, "most");
-        fw_json_number(j, key->most);
+        fw_json_put_number(j, "least", key->least); /* null: none */
+        fw_json_put_bool(j, "is_least_refused", key->is_open);
+        fw_json_put_number(j, "most", key->most);
     }
-    fw_json_key(j, "meaning");
-    fw_json_string(j, key->meaning);
+    fw_json_put_string(j, "meaning", key->meaning);
     fw_json_end(j);
 }
 
@@ -99,12 +91,9 @@ static void print_json(FILE *to)
     for (size_t i = 0; i < fw_n_tables; i++) {
         const fw_section *s = fw_tables[i].section;
         fw_json_begin_object(&j);
-        fw_json_key(&j, "file");
-        fw_json_string(&j, fw_tables[i].file);
-        fw_json_key(&j, "section");
-        fw_json_string(&j, s->name);
-        fw_json_key(&j, "meaning");
-        fw_json_string(&j, s->meaning);
+        fw_json_put_string(&j, "file", fw_tables[i].file);
+        fw_json_put_string(&j, "section", s->name);
+        fw_json_put_string(&j, "meaning", s->meaning);
         fw_json_key(&j, "keys");
         fw_json_begin_array(&j);
         for (size_t k = 0; k < s->n_keys; k++) print_key(&j, &s->keys[k]);
@@ -116,10 +105,8 @@ static void print_json(FILE *to)
     fw_json_begin_array(&j);
     for (size_t i = 0; (law = fw_distribution_file_law(i, &shape)); i++) {
         fw_json_begin_object(&j);
-        fw_json_key(&j, "name");
-        fw_json_string(&j, law);
-        fw_json_key(&j, "shape");
-        fw_json_string(&j, shape);
+        fw_json_put_string(&j, "name", law);
+        fw_json_put_string(&j, "shape", shape);
         fw_json_end(&j);
     }
     fw_json_end(&j);

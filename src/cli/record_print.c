@@ -31,16 +31,11 @@ void fw_record_print_json(FILE *to, const fw_campaign *c, const fw_record *r)
     fw_json j = fw_json_onto(to);
 
     fw_json_begin_object(&j);
-    fw_json_key(&j, "campaign");
-    fw_json_string(&j, c->name);
-    fw_json_key(&j, "seed");
-    fw_json_integer(&j, (int64_t)c->seed);
-    fw_json_key(&j, "id");
-    fw_json_integer(&j, (int64_t)r->id);
-    fw_json_key(&j, "status");
-    fw_json_string(&j, r->status == FW_OK ? "ok" : fw_status_name(r->status));
-    fw_json_key(&j, "cause");
-    fw_json_string(&j, r->cause);
+    fw_json_put_string(&j, "campaign", c->name);
+    fw_json_put_integer(&j, "seed", (int64_t)c->seed);
+    fw_json_put_integer(&j, "id", (int64_t)r->id);
+    fw_json_put_string(&j, "status", r->status == FW_OK ? "ok" : fw_status_name(r->status));
+    fw_json_put_string(&j, "cause", r->cause);
     for (size_t i = 0; i < fw_n_record_columns; i++) {
         double x;
 
@@ -53,10 +48,8 @@ void fw_record_print_json(FILE *to, const fw_campaign *c, const fw_record *r)
     fw_json_begin_array(&j);
     for (size_t k = 0; k < r->n_laws; k++) {
         fw_json_begin_object(&j);
-        fw_json_key(&j, "name");
-        fw_json_string(&j, c->model.laws[k].name);
-        fw_json_key(&j, "exponent");
-        fw_json_number(&j, c->model.laws[k].exponent);
+        fw_json_put_string(&j, "name", c->model.laws[k].name);
+        fw_json_put_number(&j, "exponent", c->model.laws[k].exponent);
         record_print_ring(&j, "wear_load", fw_record_load(r, k, FW_RING_LOAD), r->n_arcs);
         fw_json_end(&j);
     }

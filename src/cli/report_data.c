@@ -61,24 +61,6 @@ void fw_report_print_csv(FILE *to, const fw_campaign *c, const fw_answer *a)
     }
 }
 
-static void number(fw_json *j, const char *key, double x)
-{
-    fw_json_key(j, key);
-    fw_json_number(j, x);
-}
-
-static void count(fw_json *j, const char *key, uint64_t n)
-{
-    fw_json_key(j, key);
-    fw_json_integer(j, (int64_t)n);
-}
-
-static void string(fw_json *j, const char *key, const char *s)
-{
-    fw_json_key(j, key);
-    fw_json_string(j, s);
-}
-
 static void json_percentiles(fw_json *j, const fw_answer *a)
 {
     fw_json_key(j, "percentiles");
@@ -86,17 +68,17 @@ static void json_percentiles(fw_json *j, const fw_answer *a)
     for (size_t i = 0; i < a->n_percentiles; i++) {
         const fw_percentile_row *row = &a->percentiles[i];
         fw_json_begin_object(j);
-        count(j, "point", row->point);
-        number(j, "bearing_deg", row->bearing_deg);
-        number(j, "percentile", row->percentile);
-        number(j, "depth_mm", row->depth_mm);
-        number(j, "low_mm", row->low_mm);
-        number(j, "high_mm", row->high_mm);
-        number(j, "band_low_mm", row->band_low_mm);
-        number(j, "band_high_mm", row->band_high_mm);
-        number(j, "n_effective", row->n_effective);
-        number(j, "coverage", row->coverage);
-        string(j, "method", row->method);
+        fw_json_put_integer(j, "point", (int64_t)row->point);
+        fw_json_put_number(j, "bearing_deg", row->bearing_deg);
+        fw_json_put_number(j, "percentile", row->percentile);
+        fw_json_put_number(j, "depth_mm", row->depth_mm);
+        fw_json_put_number(j, "low_mm", row->low_mm);
+        fw_json_put_number(j, "high_mm", row->high_mm);
+        fw_json_put_number(j, "band_low_mm", row->band_low_mm);
+        fw_json_put_number(j, "band_high_mm", row->band_high_mm);
+        fw_json_put_number(j, "n_effective", row->n_effective);
+        fw_json_put_number(j, "coverage", row->coverage);
+        fw_json_put_string(j, "method", row->method);
         fw_json_end(j);
     }
     fw_json_end(j);
@@ -109,16 +91,16 @@ static void json_points(fw_json *j, const fw_answer *a)
     for (size_t i = 0; i < a->n_points; i++) {
         const fw_point_row *row = &a->points[i];
         fw_json_begin_object(j);
-        count(j, "point", row->point);
-        number(j, "bearing_deg", row->bearing_deg);
-        number(j, "mean_mm", row->mean_mm);
-        number(j, "mean_low_mm", row->mean_low_mm);
-        number(j, "mean_high_mm", row->mean_high_mm);
-        number(j, "path_km", row->path_km);
-        number(j, "impact_share", row->impact_share);
-        number(j, "high_share", row->high_share);
-        string(j, "dominated_by", row->dominated_by);
-        number(j, "dominating_amount", row->dominating_amount);
+        fw_json_put_integer(j, "point", (int64_t)row->point);
+        fw_json_put_number(j, "bearing_deg", row->bearing_deg);
+        fw_json_put_number(j, "mean_mm", row->mean_mm);
+        fw_json_put_number(j, "mean_low_mm", row->mean_low_mm);
+        fw_json_put_number(j, "mean_high_mm", row->mean_high_mm);
+        fw_json_put_number(j, "path_km", row->path_km);
+        fw_json_put_number(j, "impact_share", row->impact_share);
+        fw_json_put_number(j, "high_share", row->high_share);
+        fw_json_put_string(j, "dominated_by", row->dominated_by);
+        fw_json_put_number(j, "dominating_amount", row->dominating_amount);
         fw_json_end(j);
     }
     fw_json_end(j);
@@ -131,18 +113,18 @@ static void json_life(fw_json *j, const fw_answer *a)
     for (size_t i = 0; i < a->n_life; i++) {
         const fw_life_row *row = &a->life[i];
         fw_json_begin_object(j);
-        count(j, "point", row->point);
-        number(j, "bearing_deg", row->bearing_deg);
-        number(j, "percentile", row->percentile);
-        number(j, "depth_mm", row->depth_mm);
-        number(j, "low_mm", row->low_mm);
-        number(j, "high_mm", row->high_mm);
-        number(j, "windows", row->windows);
-        number(j, "allowance_year", row->allowance_year);
-        number(j, "with_law_depth_mm", row->with_law_depth_mm);
-        number(j, "with_law_low_mm", row->with_law_low_mm);
-        number(j, "with_law_high_mm", row->with_law_high_mm);
-        string(j, "assumption", a->service.assumption);
+        fw_json_put_integer(j, "point", (int64_t)row->point);
+        fw_json_put_number(j, "bearing_deg", row->bearing_deg);
+        fw_json_put_number(j, "percentile", row->percentile);
+        fw_json_put_number(j, "depth_mm", row->depth_mm);
+        fw_json_put_number(j, "low_mm", row->low_mm);
+        fw_json_put_number(j, "high_mm", row->high_mm);
+        fw_json_put_number(j, "windows", row->windows);
+        fw_json_put_number(j, "allowance_year", row->allowance_year);
+        fw_json_put_number(j, "with_law_depth_mm", row->with_law_depth_mm);
+        fw_json_put_number(j, "with_law_low_mm", row->with_law_low_mm);
+        fw_json_put_number(j, "with_law_high_mm", row->with_law_high_mm);
+        fw_json_put_string(j, "assumption", a->service.assumption);
         fw_json_end(j);
     }
     fw_json_end(j);
@@ -155,20 +137,20 @@ static void json_life_points(fw_json *j, const fw_answer *a)
     for (size_t i = 0; i < a->service.n_points; i++) {
         const fw_life_point *p = &a->service.points[i];
         fw_json_begin_object(j);
-        count(j, "point", p->point);
-        number(j, "bearing_deg", p->bearing_deg);
-        number(j, "mean_mm", p->mean_mm);
-        number(j, "cv", p->cv);
-        number(j, "cv_windows", p->cv_windows);
-        number(j, "cv_persistence", p->cv_persistence);
-        number(j, "cv_years", p->cv_years);
-        number(j, "years_half_width", p->years_half_width);
-        number(j, "allowance_mm", p->allowance_mm);
-        number(j, "never", p->never);
-        number(j, "with_law_never", p->with_law_never);
-        number(j, "allowance_year_p5", p->allowance_year_p5);
-        number(j, "allowance_year_p50", p->allowance_year_p50);
-        number(j, "allowance_year_p95", p->allowance_year_p95);
+        fw_json_put_integer(j, "point", (int64_t)p->point);
+        fw_json_put_number(j, "bearing_deg", p->bearing_deg);
+        fw_json_put_number(j, "mean_mm", p->mean_mm);
+        fw_json_put_number(j, "cv", p->cv);
+        fw_json_put_number(j, "cv_windows", p->cv_windows);
+        fw_json_put_number(j, "cv_persistence", p->cv_persistence);
+        fw_json_put_number(j, "cv_years", p->cv_years);
+        fw_json_put_number(j, "years_half_width", p->years_half_width);
+        fw_json_put_number(j, "allowance_mm", p->allowance_mm);
+        fw_json_put_number(j, "never", p->never);
+        fw_json_put_number(j, "with_law_never", p->with_law_never);
+        fw_json_put_number(j, "allowance_year_p5", p->allowance_year_p5);
+        fw_json_put_number(j, "allowance_year_p50", p->allowance_year_p50);
+        fw_json_put_number(j, "allowance_year_p95", p->allowance_year_p95);
         fw_json_end(j);
     }
     fw_json_end(j);
@@ -183,11 +165,11 @@ static void json_years(fw_json *j, const fw_answer *a)
         const fw_fan_row *row = &a->service.fan[i];
         if (row->point != a->service.governing_point) continue;
         fw_json_begin_object(j);
-        count(j, "point", row->point);
-        number(j, "year", row->year);
-        number(j, "percentile", row->percentile);
-        number(j, "depth_mm", row->depth_mm);
-        number(j, "with_law_depth_mm", row->with_law_depth_mm);
+        fw_json_put_integer(j, "point", (int64_t)row->point);
+        fw_json_put_number(j, "year", row->year);
+        fw_json_put_number(j, "percentile", row->percentile);
+        fw_json_put_number(j, "depth_mm", row->depth_mm);
+        fw_json_put_number(j, "with_law_depth_mm", row->with_law_depth_mm);
         fw_json_end(j);
     }
     fw_json_end(j);
@@ -197,12 +179,12 @@ static void json_years(fw_json *j, const fw_answer *a)
         const fw_allowance_row *row = &a->service.allowance[i];
         if (row->point != a->service.governing_point) continue;
         fw_json_begin_object(j);
-        count(j, "point", row->point);
-        number(j, "year", row->year);
-        number(j, "probability", row->probability);
-        number(j, "by_then", row->by_then);
-        number(j, "with_law_probability", row->with_law_probability);
-        number(j, "with_law_by_then", row->with_law_by_then);
+        fw_json_put_integer(j, "point", (int64_t)row->point);
+        fw_json_put_number(j, "year", row->year);
+        fw_json_put_number(j, "probability", row->probability);
+        fw_json_put_number(j, "by_then", row->by_then);
+        fw_json_put_number(j, "with_law_probability", row->with_law_probability);
+        fw_json_put_number(j, "with_law_by_then", row->with_law_by_then);
         fw_json_end(j);
     }
     fw_json_end(j);
@@ -215,12 +197,12 @@ static void json_ledger(fw_json *j, const fw_answer *a)
     for (size_t i = 0; i < a->n_ledger; i++) {
         const fw_ledger_row *row = &a->ledger[i];
         fw_json_begin_object(j);
-        string(j, "row", row->row);
-        number(j, "amount", row->amount);
-        string(j, "shrinks_with", row->shrinks_with);
-        string(j, "cost_to_halve", row->cost_to_halve);
-        number(j, "cost_to_halve_cpu_s", row->cost_to_halve_cpu_s);
-        fw_json_key(j, "is_sum"), fw_json_bool(j, row->is_sum);
+        fw_json_put_string(j, "row", row->row);
+        fw_json_put_number(j, "amount", row->amount);
+        fw_json_put_string(j, "shrinks_with", row->shrinks_with);
+        fw_json_put_string(j, "cost_to_halve", row->cost_to_halve);
+        fw_json_put_number(j, "cost_to_halve_cpu_s", row->cost_to_halve_cpu_s);
+        fw_json_put_bool(j, "is_sum", row->is_sum);
         fw_json_end(j);
     }
     fw_json_end(j);
@@ -231,10 +213,10 @@ static void json_advice(fw_json *j, const fw_answer *a)
     const fw_advice *v = &a->advice;
     fw_json_key(j, "cpu_advice"); /* which row pays best follows from a clock */
     fw_json_begin_object(j);
-    number(j, "doubt", v->total);
-    string(j, "largest", v->largest < a->n_ledger ? a->ledger[v->largest].row : "");
-    string(j, "best_paid", v->best_paid < a->n_ledger ? a->ledger[v->best_paid].row : "");
-    number(j, "doubt_after", v->total_after);
+    fw_json_put_number(j, "doubt", v->total);
+    fw_json_put_string(j, "largest", v->largest < a->n_ledger ? a->ledger[v->largest].row : "");
+    fw_json_put_string(j, "best_paid", v->best_paid < a->n_ledger ? a->ledger[v->best_paid].row : "");
+    fw_json_put_number(j, "doubt_after", v->total_after);
     fw_json_end(j);
 }
 
@@ -243,20 +225,20 @@ static void json_swept(fw_json *j, const fw_answer *a)
     bool is_there = a->n_swept > 0;
     fw_json_key(j, "swept_strip");
     fw_json_begin_object(j);
-    number(j, "ring_ratio", is_there ? a->swept_ring.ratio : NAN);
-    number(j, "usual_ratio", is_there ? a->swept_ring.usual : NAN);
-    number(j, "law_over_sample", is_there ? a->swept_ring.law_over_sample : NAN);
-    string(j, "why_not", is_there ? NULL : a->swept_why);
+    fw_json_put_number(j, "ring_ratio", is_there ? a->swept_ring.ratio : NAN);
+    fw_json_put_number(j, "usual_ratio", is_there ? a->swept_ring.usual : NAN);
+    fw_json_put_number(j, "law_over_sample", is_there ? a->swept_ring.law_over_sample : NAN);
+    fw_json_put_string(j, "why_not", is_there ? NULL : a->swept_why);
     fw_json_key(j, "points");
     fw_json_begin_array(j);
     for (size_t i = 0; i < a->n_swept; i++) {
         const fw_sanity_row *row = &a->swept[i];
         fw_json_begin_object(j);
-        count(j, "point", row->point);
-        number(j, "bearing_deg", row->bearing_deg);
-        number(j, "strip_mm", row->strip_mm);
-        number(j, "law_mm", row->law_mm);
-        number(j, "ratio", row->ratio);
+        fw_json_put_integer(j, "point", (int64_t)row->point);
+        fw_json_put_number(j, "bearing_deg", row->bearing_deg);
+        fw_json_put_number(j, "strip_mm", row->strip_mm);
+        fw_json_put_number(j, "law_mm", row->law_mm);
+        fw_json_put_number(j, "ratio", row->ratio);
         fw_json_end(j);
     }
     fw_json_end(j);
@@ -270,21 +252,21 @@ static void json_after(fw_json *j, const fw_campaign *c, const fw_answer *a)
     if (a->law_scatter.is_given) {
         fw_json_key(j, "law_scatter");
         fw_json_begin_object(j);
-        number(j, "mean", a->law_scatter.mean);
-        number(j, "median", a->law_scatter.median);
-        number(j, "low", a->law_scatter.low);
-        number(j, "high", a->law_scatter.high);
+        fw_json_put_number(j, "mean", a->law_scatter.mean);
+        fw_json_put_number(j, "median", a->law_scatter.median);
+        fw_json_put_number(j, "low", a->law_scatter.low);
+        fw_json_put_number(j, "high", a->law_scatter.high);
         fw_json_end(j);
     }
     if (!c->after.has_water_level) return;
     fw_json_key(j, "water_level");
     fw_json_begin_object(j);
-    count(j, "point", a->governing_point);
-    number(j, "thickness_m", w->n ? w->thickness : NAN);
-    number(j, "most_height_m", w->n ? w->most_height : NAN);
-    number(j, "most_share", w->n ? w->most_share : NAN);
-    number(j, "band_low_m", w->n ? w->band_low : NAN);
-    number(j, "band_high_m", w->n ? w->band_high : NAN);
+    fw_json_put_integer(j, "point", (int64_t)a->governing_point);
+    fw_json_put_number(j, "thickness_m", w->n ? w->thickness : NAN);
+    fw_json_put_number(j, "most_height_m", w->n ? w->most_height : NAN);
+    fw_json_put_number(j, "most_share", w->n ? w->most_share : NAN);
+    fw_json_put_number(j, "band_low_m", w->n ? w->band_low : NAN);
+    fw_json_put_number(j, "band_high_m", w->n ? w->band_high : NAN);
     fw_json_key(j, "height_m");
     fw_json_begin_array(j);
     for (size_t i = 0; i < w->n; i++) fw_json_number(j, w->height[i]);
@@ -300,22 +282,22 @@ void fw_report_print_json(FILE *to, const fw_campaign *c, const fw_answer *a)
 {
     fw_json j = fw_json_onto(to);
     fw_json_begin_object(&j);
-    string(&j, "campaign", c->name);
-    count(&j, "n", a->n);
-    count(&j, "failed", a->n_failed);
-    count(&j, "first_id", a->span.first);
-    count(&j, "last_id", (a->span.end ? a->span.end : a->n) - 1);
-    count(&j, "seed", c->seed);
-    number(&j, "window_s", c->model.window);
-    number(&j, "confidence", a->confidence);
-    number(&j, "design_percentile", a->design_percentile);
-    count(&j, "governing_point", a->governing_point);
-    number(&j, "half_width", a->half_width);
+    fw_json_put_string(&j, "campaign", c->name);
+    fw_json_put_integer(&j, "n", (int64_t)a->n);
+    fw_json_put_integer(&j, "failed", (int64_t)a->n_failed);
+    fw_json_put_integer(&j, "first_id", (int64_t)a->span.first);
+    fw_json_put_integer(&j, "last_id", (int64_t)(a->span.end ? a->span.end : a->n) - 1);
+    fw_json_put_integer(&j, "seed", (int64_t)c->seed);
+    fw_json_put_number(&j, "window_s", c->model.window);
+    fw_json_put_number(&j, "confidence", a->confidence);
+    fw_json_put_number(&j, "design_percentile", a->design_percentile);
+    fw_json_put_integer(&j, "governing_point", (int64_t)a->governing_point);
+    fw_json_put_number(&j, "half_width", a->half_width);
     json_percentiles(&j, a);
     json_points(&j, a);
     json_life(&j, a);
     if (a->n_life) {
-        count(&j, "life_governing_point", a->service.governing_point);
+        fw_json_put_integer(&j, "life_governing_point", (int64_t)a->service.governing_point);
         json_life_points(&j, a);
         json_years(&j, a);
     }
@@ -323,12 +305,12 @@ void fw_report_print_json(FILE *to, const fw_campaign *c, const fw_answer *a)
     json_advice(&j, a);
     json_swept(&j, a);
     fw_json_key(&j, "effects_ledger"), fw_effects_json_rows(&j, &a->effects);
-    fw_json_key(&j, "effects_measured"), fw_json_string(&j, a->effects.n_rows ? a->effects.origin : "nowhere");
+    fw_json_put_string(&j, "effects_measured", a->effects.n_rows ? a->effects.origin : "nowhere");
     json_after(&j, c, a);
     fw_json_key(&j, "not_applied");
     fw_json_begin_array(&j);
     for (size_t i = 0; i < c->n_not_applied; i++) fw_json_string(&j, c->not_applied[i]);
     fw_json_end(&j);
-    string(&j, "not_modelled", "level-ice crushing at MPa; published field rates of 0.2-7 mm/year include it");
+    fw_json_put_string(&j, "not_modelled", "level-ice crushing at MPa; published field rates of 0.2-7 mm/year include it");
     fw_json_end(&j);
 }
